@@ -1,0 +1,35 @@
+# gelpump: every figure, table and number of Webber & Montenegro-Johnson (2025), from one command:
+#
+#   snakemake --cores 2
+
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+
+configfile: "config/config.yaml"
+
+
+# no container is used or needed: the line keeps `snakemake --lint` content
+container: "docker://python:3.11-slim"
+
+
+report: "workflow/report/workflow.rst"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/materials.smk"
+include: "workflow/rules/bead.smk"
+include: "workflow/rules/figures.smk"
+include: "workflow/rules/tables.smk"
+include: "workflow/rules/claims.smk"
+
+
+rule all:
+    input:
+        MATERIALS,
+        BEADS,
+        FIGURES,
+        TABLES,
+        "results/claims.json",
+        "results/tables/claims.md",

@@ -1,0 +1,1 @@
+"""What the paper states, one finding a statement: computed here, judged by ``verdict``."""

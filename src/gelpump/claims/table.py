@@ -1,0 +1,75 @@
+"""The claims as a Markdown table, each number to the digits that its uncertainty leaves."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from math import floor, log10
+from typing import Any
+
+STATUSES = ("reproduced", "deviates", "inconsistent-in-paper", "qualitative")
+
+
+def digits(value: float, uncertainty: float | None) -> str:
+    """``value`` rounded to the second digit of ``uncertainty``, six significant ones at most."""
+    if not uncertainty:
+        return f"{value:.6g}"
+    if abs(value) <= abs(uncertainty):
+        return f"{value:.1g}"
+    decimals = 1 - floor(log10(abs(uncertainty)))
+    if value:
+        decimals = min(decimals, 5 - floor(log10(abs(value))))
+    return f"{round(value, decimals):.{max(decimals, 0)}f}"
+
+
+def number(value: Any, uncertainty: Any = None) -> str:
+    """A number, a list of numbers, a truth value or nothing, for a cell of the table."""
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, list):
+        many = uncertainty if isinstance(uncertainty, list) else [uncertainty] * len(value)
+        return ", ".join(number(v, u) for v, u in zip(value, many, strict=True))
+    text = digits(value, uncertainty)
+    return f"{text} ± {uncertainty:.1g}" if uncertainty else text
+
+
+def counts(claims: Sequence[Mapping[str, Any]]) -> dict[str, int]:
+    """How many claims have each status, in the order of STATUSES."""
+    found = Counter(claim["status"] for claim in claims)
+    return {each: found[each] for each in STATUSES}
+
+
+def markdown(claims: Sequence[Mapping[str, Any]]) -> str:
+    """The whole page: how many of each status, then a row a claim."""
+    lines = [
+        "# Claims of the paper",
+        "",
+        ", ".join(f"{count} {name}" for name, count in counts(claims).items()),
+        "",
+        "| claim | where | statement | published | computed | difference | status | evidence |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for claim in claims:
+        if isinstance(claim["computed"], bool) or claim["computed"] is None:
+            computed = number(claim["computed"])
+            if claim["measure"] is not None:
+                measure = number(claim["measure"], claim["uncertainty"])
+                computed = f"{computed}: {claim['measured']} {measure}".removeprefix("–: ")
+        else:
+            computed = number(claim["computed"], claim["uncertainty"])
+        difference = claim["relative_difference"]
+        published = number(claim["published"])
+        if claim["published_in_figure"] is not None:
+            published += f" (figure: {number(claim['published_in_figure'])})"
+        cells = [
+            claim["id"],
+            claim["where"],
+            claim["statement"],
+            published,
+            computed,
+            "–" if difference is None else f"{difference:.2g}",
+            claim["status"],
+            claim["evidence"],
+        ]
+        lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
+    return "\n".join(lines) + "\n"

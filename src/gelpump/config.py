@@ -1,0 +1,142 @@
+"""The configuration: defaults from its JSON schema, and every refusal before any job runs.
+
+A refusal names the key as a path (``beads.drying.gel``), the value given and what is allowed.
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+
+class ConfigError(ValueError):
+    """Some keys of the configuration are refused; the message lists them all, one a line."""
+
+
+def fill_defaults(config: dict[str, Any], schema: Mapping[str, Any]) -> None:
+    """Put the schema's defaults where ``config`` has no value, in place."""
+    for key, rule in schema.get("properties", {}).items():
+        if key not in config and "default" in rule:
+            default = rule["default"]
+            config[key] = default.copy() if isinstance(default, dict | list) else default
+        if isinstance(config.get(key), dict):
+            fill_defaults(config[key], rule)
+    anything_else = schema.get("additionalProperties")
+    if isinstance(anything_else, Mapping):
+        for key, value in config.items():
+            if key not in schema.get("properties", {}) and isinstance(value, dict):
+                fill_defaults(value, anything_else)
+
+
+def validate(config: dict[str, Any], schema: Mapping[str, Any]) -> None:
+    """Check ``config`` against the schema, fill in its defaults, then check the physics.
+
+    Raises ConfigError.
+    """
+    _refuse(_schema_problems(config, schema))
+    fill_defaults(config, schema)
+    _refuse(_physical_problems(config))
+
+
+def _refuse(problems: Iterator[str]) -> None:
+    found = list(problems)
+    if found:
+        raise ConfigError("the configuration is refused:\n  " + "\n  ".join(found))
+
+
+def _schema_problems(config, schema) -> Iterator[str]:
+    from jsonschema import Draft202012Validator
+
+    errors = Draft202012Validator(schema).iter_errors(config)
+    for error in sorted(errors, key=lambda e: [str(part) for part in e.absolute_path]):
+        key = ".".join(str(part) for part in error.absolute_path)
+        allowed = error.validator_value
+        match error.validator:
+            case "additionalProperties":
+                known = sorted(error.schema["properties"])
+                for name in sorted(set(error.instance) - set(known), key=str):
+                    path = f"{key}.{name}" if key else name
+                    yield f"{path} = {error.instance[name]!r}: no such key; allowed: {known}"
+            case "required":
+                missing = [name for name in allowed if name not in error.instance]
+                yield f"{key or 'the configuration'}: missing {missing}"
+            case "enum":
+                yield f"{key} = {error.instance!r}: must be one of {allowed}"
+            case "type":
+                yield f"{key} = {error.instance!r}: must be of type {allowed}"
+            case _:
+                yield f"{key} = {error.instance!r}: {error.validator} {allowed}"
+
+
+def _physical_problems(config) -> Iterator[str]:
+    from gelpump.materials import from_config
+
+    gels = {}
+    for name, block in config["gels"].items():
+        try:
+            gels[name] = from_config(name, block)
+        except ValueError as refusal:
+            yield f"gels.{refusal}"
+    temperatures = config["materials"]["temperatures"]
+    if any(b <= a for a, b in zip(temperatures, temperatures[1:], strict=False)):
+        yield f"materials.temperatures = {temperatures}: must increase"
+    for case, block in config["beads"].items():
+        yield from _bead_problems(f"beads.{case}", block, gels, config["gels"])
+    yield from _choice_problems(config)
+
+
+def _bead_problems(key, block, gels, blocks) -> Iterator[str]:
+    energy_based = sorted(n for n, b in blocks.items() if b["model"] == "energy-based")
+    name = block["gel"]
+    if name not in energy_based:
+        yield f"{key}.gel = {name!r}: must be one of the energy-based gels {energy_based}"
+        return
+    if name not in gels:  # refused above
+        return
+    gel = gels[name]
+    lowest, highest = gel.temperature_range
+    outside = False
+    for end in ("temperature_initial", "temperature_final"):
+        if not lowest <= block[end] <= highest:
+            outside = True
+            yield (
+                f"{key}.{end} = {block[end]}: must be within gels.{name}.temperature_range, "
+                f"{lowest} to {highest} K"
+            )
+    if not outside:
+        try:
+            initial_polymer_fraction(gel, block)
+        except ValueError as refusal:
+            yield f"{key}: no initial state: {refusal}"
+    for times in ("published_times", "profile_times"):
+        late = [t for t in block[times] if t > block["end"]]
+        if late:
+            yield f"{key}.{times} = {late}: must not lie after {key}.end = {block['end']}"
+
+
+def _choice_problems(config) -> Iterator[str]:
+    """Figures and tables may only name gels, cases and temperatures that exist."""
+    known = {
+        "gel": sorted(n for n, b in config["gels"].items() if b["model"] == "energy-based"),
+        "case": sorted(config["beads"]),
+        "temperature": config["materials"]["temperatures"],
+    }
+    for kind in ("figures", "tables"):
+        for name, block in config[kind].items():
+            for key, value in block.items():
+                allowed = known.get(key.removesuffix("s"))
+                for each in value if isinstance(value, list) else [value]:
+                    if allowed is not None and each not in allowed:
+                        yield f"{kind}.{name}.{key} = {each!r}: must be one of {allowed}"
+
+
+def initial_polymer_fraction(gel, case: Mapping[str, Any]) -> float:
+    """phi_initial of a bead's config block: as given, or in equilibrium at temperature_initial.
+
+    Raises ValueError when there is no such equilibrium, or when no surface is stress-free at the
+    final temperature.
+    """
+    if "phi_initial" not in case:
+        return gel.equilibrium_polymer_fraction(case["temperature_initial"], case["branch"])
+    phi, T = case["phi_initial"], case["temperature_final"]
+    if not gel.diffusivity(phi, T) > 0.0:
+        raise ValueError(f"phi_initial = {phi}: D < 0 at {T} K, phases separate at once")
+    return phi

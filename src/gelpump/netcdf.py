@@ -1,0 +1,61 @@
+"""Datasets on disk: netCDF-4 after CF-1.11, whole or not there, byte-identical from run to run."""
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import gelpump
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+PAPER = (
+    "Webber, J. J. & Montenegro-Johnson, T. D. (2025) Poromechanical modelling of responsive "
+    "hydrogel pumps. J. Fluid Mech."
+)
+
+
+def write(dataset: "xr.Dataset", path: str | Path, title: str, parameters: Mapping[str, Any]):
+    """Write ``dataset`` to ``path``, with ``parameters`` (the rule's config) in its attributes.
+
+    The file appears under its name only when it is complete and on the disk.  Neither date nor
+    path is stored, so that equal inputs give equal bytes.
+    """
+    path = Path(path)
+    dataset = dataset.assign_attrs(
+        Conventions="CF-1.11",
+        title=title,
+        institution="gelpump, a replication project",
+        source=f"gelpump {gelpump.__version__}",
+        history=f"computed by gelpump {gelpump.__version__}",
+        references=PAPER,
+        comment="quantities are dimensionless unless their units say otherwise",
+        parameters=json.dumps(parameters, sort_keys=True),
+        **{k: v for k, v in dataset.attrs.items() if v != ""},
+    )
+    for name in list(dataset.attrs):
+        if dataset.attrs[name] == "":
+            del dataset.attrs[name]
+    encoding = {name: {"_FillValue": None} for name in dataset.variables}
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        publish(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def publish(partial: Path, path: Path) -> None:
+    """Give a finished file its name: flushed to the disk first, then renamed in one step."""
+    with partial.open("rb") as stream:
+        os.fsync(stream.fileno())
+    partial.replace(path)
+
+
+def read(path: str | Path) -> "xr.Dataset":
+    """The whole dataset of ``path`` in memory."""
+    import xarray as xr
+
+    return xr.load_dataset(path, engine="netcdf4")

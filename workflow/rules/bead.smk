@@ -1,0 +1,93 @@
+# Swelling and drying beads (section 2.1) in both models, and the refinement of each.
+
+BEADS = expand(
+    [
+        f"{DATA}/bead_{{case}}_{{model}}.nc",
+        f"{DATA}/refinement/bead_{{case}}_{{model}}.nc",
+    ],
+    case=config["beads"],
+    model=["lens", "nonlinear"],
+)
+BEAD = ["netcdf", "config", "uncertainty", "bead/__init__", "bead/dataset", "bead/production"]
+LENS_BEAD = [*GEL, *BEAD, "bdf", "finite_volume", "bead/lens"]
+NONLINEAR_BEAD = [*GEL, *BEAD, "bead/nonlinear"]
+
+
+wildcard_constraints:
+    case="[a-z][a-z0-9]*",
+
+
+def bead_case(wildcards):
+    return config["beads"][wildcards.case]
+
+
+def bead_gel(wildcards):
+    return config["gels"][config["beads"][wildcards.case]["gel"]]
+
+
+rule bead_lens:
+    input:
+        src=modules(*LENS_BEAD),
+    output:
+        f"{DATA}/bead_{{case}}_lens.nc",
+    log:
+        "results/logs/bead_{case}_lens.log",
+    benchmark:
+        "results/benchmarks/bead_{case}_lens.tsv"
+    params:
+        case=bead_case,
+        gel=bead_gel,
+        numerics=config["numerics"]["bead_lens"],
+    script:
+        "../scripts/bead_lens.py"
+
+
+rule bead_nonlinear:
+    input:
+        src=modules(*NONLINEAR_BEAD),
+    output:
+        f"{DATA}/bead_{{case}}_nonlinear.nc",
+    log:
+        "results/logs/bead_{case}_nonlinear.log",
+    benchmark:
+        "results/benchmarks/bead_{case}_nonlinear.tsv"
+    params:
+        case=bead_case,
+        gel=bead_gel,
+        numerics=config["numerics"]["bead_nonlinear"],
+    script:
+        "../scripts/bead_nonlinear.py"
+
+
+rule refine_bead_lens:
+    input:
+        src=modules(*LENS_BEAD),
+    output:
+        f"{DATA}/refinement/bead_{{case}}_lens.nc",
+    log:
+        "results/logs/refine_bead_{case}_lens.log",
+    benchmark:
+        "results/benchmarks/refine_bead_{case}_lens.tsv"
+    params:
+        case=bead_case,
+        gel=bead_gel,
+        numerics=config["numerics"]["bead_lens"],
+    script:
+        "../scripts/refine_bead_lens.py"
+
+
+rule refine_bead_nonlinear:
+    input:
+        src=modules(*NONLINEAR_BEAD),
+    output:
+        f"{DATA}/refinement/bead_{{case}}_nonlinear.nc",
+    log:
+        "results/logs/refine_bead_{case}_nonlinear.log",
+    benchmark:
+        "results/benchmarks/refine_bead_{case}_nonlinear.tsv"
+    params:
+        case=bead_case,
+        gel=bead_gel,
+        numerics=config["numerics"]["bead_nonlinear"],
+    script:
+        "../scripts/refine_bead_nonlinear.py"

@@ -1,0 +1,31 @@
+# The paper's tables, as CSV, Markdown and LaTeX.
+
+TABLES = expand(
+    "results/tables/{table}.{suffix}",
+    table=["table2_gel_parameters"],
+    suffix=["csv", "md", "tex"],
+)
+
+
+rule table2_gel_parameters:
+    input:
+        src=modules("tables"),
+    output:
+        csv="results/tables/table2_gel_parameters.csv",
+        md=report(
+            "results/tables/table2_gel_parameters.md",
+            caption="../report/table2_gel_parameters.rst",
+            category="Tables",
+        ),
+        tex="results/tables/table2_gel_parameters.tex",
+    log:
+        "results/logs/table2_gel_parameters.log",
+    benchmark:
+        "results/benchmarks/table2_gel_parameters.tsv"
+    params:
+        gels={
+            name: config["gels"][name]
+            for name in config["tables"]["table2_gel_parameters"]["gels"]
+        },
+    script:
+        "../scripts/table2_gel_parameters.py"

@@ -1,0 +1,40 @@
+"""What every script does around its work: log what happens, and hold its rule to its word."""
+
+import contextlib
+import logging
+import sys
+import traceback
+from pathlib import Path
+
+
+@contextlib.contextmanager
+def job(snakemake):
+    """Run the body with its output, warnings and any traceback in the rule's log file.
+
+    At the end every imported gelpump module must be among the rule's inputs: otherwise an edit of
+    that module would not rerun the rule.  RuntimeError if one is not.
+    """
+    with open(snakemake.log[0], "w", encoding="utf-8") as log:
+        with contextlib.redirect_stdout(log), contextlib.redirect_stderr(log):
+            logging.basicConfig(stream=log, level=logging.INFO, format="%(levelname)s %(message)s")
+            logging.captureWarnings(True)
+            try:
+                yield
+                _require_declared(snakemake.input.src)
+            except BaseException:
+                traceback.print_exc()
+                raise
+
+
+def _require_declared(declared):
+    imported = {
+        Path(module.__file__).resolve()
+        for name, module in list(sys.modules.items())
+        if name.partition(".")[0] == "gelpump" and getattr(module, "__file__", None)
+    }
+    missing = imported - {Path(file).resolve() for file in declared}
+    if missing:
+        raise RuntimeError(
+            "imported, but not among the modules that the rule declares: "
+            + ", ".join(sorted(map(str, missing)))
+        )

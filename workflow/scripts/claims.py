@@ -1,0 +1,22 @@
+"""Rule claims: what we find of each statement of the paper, judged."""
+
+from _helpers import job
+
+with job(snakemake):
+    from gelpump import netcdf
+    from gelpump.claims import beads, materials, table
+    from gelpump.claims.verdict import judged
+    from gelpump.materials import from_config
+    from gelpump.text import write_json, write_text
+
+    params = snakemake.params
+    data = {
+        path.removeprefix("results/data/").removesuffix(".nc"): netcdf.read(path)
+        for path in snakemake.input.data
+    }
+    gels = {name: from_config(name, block) for name, block in params.gels.items()}
+    findings = [*materials.findings(data, gels), *beads.findings(data, params.cases)]
+    claims = [judged(finding, params.published.get(finding.id)) for finding in findings]
+    write_json(claims, snakemake.output.json)
+    write_text(table.markdown(claims), snakemake.output.md)
+    print(table.counts(claims))

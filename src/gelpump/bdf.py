@@ -22,7 +22,7 @@ import numpy as np
 
 SAFETY = 0.9
 SHRINK_LIMIT = 0.2
-GROWTH_LIMIT = 1.6
+GROWTH_LIMIT = 1.5  # at a constant ratio, third order is stable up to 1.53
 
 
 class NotConverged(ArithmeticError):
@@ -67,14 +67,17 @@ class Step:
 
     @property
     def time(self) -> float:
+        """Time at the end of the step."""
         return float(self.times[0])
 
     @property
     def start(self) -> float:
+        """Time at the start of the step."""
         return float(self.times[1])
 
     @property
     def solution(self) -> np.ndarray:
+        """Solution at the end of the step."""
         return self.solutions[0]
 
     def at(self, t: float) -> np.ndarray:

@@ -4,6 +4,7 @@ A refusal names the key as a path (``beads.drying.gel``), the value given and wh
 """
 
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from typing import Any
 
 
@@ -76,7 +77,7 @@ def _physical_problems(config) -> Iterator[str]:
         except ValueError as refusal:
             yield f"gels.{refusal}"
     temperatures = config["materials"]["temperatures"]
-    if any(b <= a for a, b in zip(temperatures, temperatures[1:], strict=False)):
+    if any(b <= a for a, b in pairwise(temperatures)):
         yield f"materials.temperatures = {temperatures}: must increase"
     for case, block in config["beads"].items():
         yield from _bead_problems(f"beads.{case}", block, gels, config["gels"])

@@ -14,16 +14,19 @@ def job(snakemake):
     At the end every imported gelpump module must be among the rule's inputs: otherwise an edit of
     that module would not rerun the rule.  RuntimeError if one is not.
     """
-    with open(snakemake.log[0], "w", encoding="utf-8") as log:
-        with contextlib.redirect_stdout(log), contextlib.redirect_stderr(log):
-            logging.basicConfig(stream=log, level=logging.INFO, format="%(levelname)s %(message)s")
-            logging.captureWarnings(True)
-            try:
-                yield
-                _require_declared(snakemake.input.src)
-            except BaseException:
-                traceback.print_exc()
-                raise
+    with (
+        open(snakemake.log[0], "w", encoding="utf-8") as log,
+        contextlib.redirect_stdout(log),
+        contextlib.redirect_stderr(log),
+    ):
+        logging.basicConfig(stream=log, level=logging.INFO, format="%(levelname)s %(message)s")
+        logging.captureWarnings(True)
+        try:
+            yield
+            _require_declared(snakemake.input.src)
+        except BaseException:
+            traceback.print_exc()
+            raise
 
 
 def _require_declared(declared):

@@ -20,6 +20,7 @@ class Loss(NamedTuple):
     reason: str
 
     def attributes(self) -> dict[str, str | float]:
+        """Attributes of the dataset that the loss ended."""
         statement = (
             f"phase separation at t = {self.t:.6g}, r = {self.r:.6g}, "
             f"phi = {self.polymer_fraction:.6g}: {self.reason}"
@@ -45,8 +46,8 @@ def bead_dataset(
     t: shape (t,).  dry_faces: dry radii 0 ... 1 of the shell faces, shape (face,).  faces: their
     radii r, shape (t, face).  A shell's polymer fraction is its dry volume over its volume, and
     belongs to the root of the shell's mean r^2; ``polymer_volume_error`` sums the polymer of all
-    shells again and compares it with that of the dry bead.  The attribute ``stopped`` is empty, or tells of the
-    ``loss`` that ended the run.
+    shells again and compares it with that of the dry bead.  The attribute ``stopped`` is empty, or
+    tells of the ``loss`` that ended the run.
     """
     import xarray as xr
 

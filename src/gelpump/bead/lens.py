@@ -21,11 +21,12 @@ are exact by construction.  Psi lives in the shells, at their mean R^2 (which ma
 exact for a parabolic profile, so the centre keeps second order), and at the surface, where
 Psi_s = Psi(phi_s(a)).  Divided by the geometric factor, the backward-difference equation of face i
 
-    G_i = (alpha u_i + history_i) R_i / (6 u_i^(4/3)) (S_(i+1/2) - S_(i-1/2)) + Psi_(i+1/2) - Psi_(i-1/2)
+    G_i = (alpha u_i + history_i) R_i dS_i / (6 u_i^(4/3)) + Psi_(i+1/2) - Psi_(i-1/2) ,
 
-has a tridiagonal Jacobian that *is* a finite-volume diffusion operator, with face conductance
-D phi^2 / dR^3: one FiPy sweep is one Newton step, quadratically convergent, surface condition and
-moving radius included.  Several meshes of the same bead advance in the same sweeps.
+dS_i being the distance of its shells in R^2, has a tridiagonal Jacobian that *is* a finite-volume
+diffusion operator, with face conductance D phi^2 / dR^3: one FiPy sweep is one Newton step,
+quadratically convergent, surface condition and moving radius included.  Several meshes of the same
+bead advance in the same sweeps.
 """
 
 from collections.abc import Sequence
@@ -105,6 +106,7 @@ class Surface:
         return cls(gel, temperature, float(lower), float(upper))
 
     def load(self, phi: float) -> float:
+        """Function h of the class's docstring, equal to 4/a at a stress-free surface."""
         mu = self.gel.shear_modulus(1.0)
         return self.gel.osmotic_pressure(phi, self.temperature) / mu + 4.0 * np.cbrt(phi)
 
@@ -133,9 +135,11 @@ class Bead:
         self.accuracy = NEWTON_SHARE * tolerance
 
     def radius(self, u: np.ndarray) -> np.ndarray:
+        """Radius a of each bead."""
         return np.cbrt(u[self.shells.outer])
 
     def polymer_fraction(self, u: np.ndarray) -> np.ndarray:
+        """Polymer fraction phi of each shell."""
         return self.shells.volume / self.shells.jump(u)
 
     def displacement_norm(self, u: np.ndarray, du: np.ndarray) -> float:

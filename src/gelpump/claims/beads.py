@@ -85,7 +85,7 @@ def plateau(t: np.ndarray, radius: np.ndarray) -> list[float]:
 
 
 def steepest(t: np.ndarray, gradient: np.ndarray, after: float) -> float:
-    """Time, past ``after``, of the largest gradient: the top of the parabola through three points."""
+    """Time, past ``after``, of the largest gradient: top of the parabola through three points."""
     late = int(np.argmax(np.where(t > after, gradient, -np.inf)))
     nearby = slice(late - 1, late + 2)
     a, b, _ = np.polyfit(t[nearby] - t[late], gradient[nearby], 2)

@@ -86,7 +86,7 @@ def _transitions(tables, gels) -> Iterator[Finding]:
 
 
 def _exponent(phi, asymptote, step: int) -> float:
-    """Power of (1/2 - a + b) that phi_0 follows at the lowest temperatures; the asymptote's is -3/5."""
+    """Power of (1/2 - a + b) that phi_0 follows at the lowest temperatures (asymptote: -3/5)."""
     slope = np.diff(np.log(phi[: step + 1 : step])) / np.diff(np.log(asymptote[: step + 1 : step]))
     return -0.6 * float(slope[0])
 
@@ -105,8 +105,8 @@ def _low_temperatures(tables, gels) -> Iterator[Finding]:
     yield Finding(
         "phi0-asymptote",
         "appendix A",
-        "power of 1/2 - (A0-A1) - (B0-B1) T that phi_0 of the swollen gels (ANB, HHT) follows at the "
-        "lowest temperature of their range",
+        "power of 1/2 - (A0-A1) - (B0-B1) T that phi_0 of the swollen gels (ANB, HHT) follows at "
+        "the lowest temperature of their range",
         exponents,
         exponent_doubts,
         "data/materials_{ANB,HHT}.nc: swollen_polymer_fraction, asymptotic_polymer_fraction",

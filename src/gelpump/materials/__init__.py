@@ -50,9 +50,6 @@ class Gel(Protocol):
     def equilibrium_polymer_fraction(self, T: float) -> float:
         """phi_0(T), at which Pi = 0 and the gel is stable."""
 
-    def spinodal_polymer_fractions(self, T: float) -> NDArray:
-        """All phi with D(phi, T) = 0, sorted."""
-
 
 # model -> (gel, the keys its config block takes beside `model`)
 _MODELS: dict[str, tuple[type, frozenset[str]]] = {

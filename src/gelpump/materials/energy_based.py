@@ -146,11 +146,6 @@ class EnergyBasedGel:
         return _ratio(*self._spinodal_terms(_fraction(phi))[:2])
 
     @property
-    def polymer_fraction_bounds(self) -> tuple[float, float]:
-        """Polymer fractions between which the gel is defined, ends excluded."""
-        return 0.0, 1.0
-
-    @property
     def equilibrium_pole(self) -> float | None:
         """Polymer fraction at which Pi does not depend on T, or None when there is none."""
         return _inside(self.B1 - self.B0, 2 * self.B1)
@@ -228,7 +223,7 @@ class EnergyBasedGel:
         return (phi - np.cbrt(phi)) / self.Omega + _log_tail(phi, 2)
 
     def _in_range(self, T: NDArray) -> NDArray:
-        return (T >= self.temperature_range[0]) & (T <= self.temperature_range[1])
+        return np.clip(T, *self.temperature_range) == T
 
     def _equilibrium_terms(self, phi: NDArray) -> tuple[NDArray, NDArray, NDArray]:
         """N, Q and N' Q - N Q' of T_eq = N/Q, Pi = phi^2 (N - Q T)."""

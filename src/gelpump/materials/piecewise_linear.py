@@ -43,15 +43,6 @@ class PiecewiseLinearGel:
         """Phi_0(theta); the transition temperature itself counts as swollen."""
         return np.where(np.asarray(theta) > 0, self.Phi_inf, 1.0)[()]
 
-    @property
-    def polymer_fraction_bounds(self) -> tuple[float, float]:
-        """Scaled polymer fractions between which the gel is defined, ends excluded."""
-        return 0.0, np.inf
-
-    def spinodal_polymer_fractions(self, theta: float) -> NDArray:
-        """None at any temperature: D > 0 throughout."""
-        return np.empty(0)
-
     def osmotic_strength(self, theta: ArrayLike) -> NDArray:
         """Pi_0(theta), the slope of Pi against Phi/Phi_0."""
         return np.where(np.asarray(theta) > 0, self.Pi_ratio, 1.0)[()]

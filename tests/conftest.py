@@ -1,0 +1,19 @@
+"""Gels and beads that several tests use."""
+
+import os
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+import pytest
+
+from gelpump.materials import EnergyBasedGel
+
+
+@pytest.fixture(scope="session")
+def hht() -> EnergyBasedGel:
+    return EnergyBasedGel("HHT", -62.22, -58.28, 0.20470, 0.19044, 720.0, (290.0, 320.0))
+
+
+@pytest.fixture(scope="session")
+def anb() -> EnergyBasedGel:
+    return EnergyBasedGel("ANB", -12.947, 17.92, 0.04496, -0.0569, 100.0, (290.0, 320.0))

@@ -1,0 +1,143 @@
+"""Uniform deswelling and re-swelling of a tube (section 3.4), without time stepping.
+
+If the temperature changes everywhere at once, eqn:tube_model has no axial gradient and leaves
+
+    dPhi/dtau = F = 16 Phi^{2/3} D (Phi_0 - Phi) / (eps^2 (1-ell)^2),   D = s Phi + (4M/3) Phi^{1/3}
+
+with Phi_0 = Phi_inf, s = Pi_ratio/Phi_inf in a hot tube and Phi_0 = s = 1 in a cold one. Lengths
+and times are scaled by L and mu_l L^2/(k Pi_00), polymer fractions by phi_00
+(eqn:nondimensionalisation).
+
+Since 16/(eps^2 (1-ell)^2) = 1/w^2 with w = eps (1-ell)/4, the equation separates:
+
+    tau = w^2 Integral dPhi / [ Phi (Phi_0 - Phi) (s Phi^{2/3} + 4M/3) ]
+
+The end point is a logarithmic singularity. It is taken away by y = ln[Phi/(Phi_0 - Phi)] while
+drying and y = ln(Phi - Phi_0) while swelling. In y the integrand is analytic for |Im y| < pi
+whatever the parameters, so Gauss-Legendre converges geometrically.
+"""
+
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(64)
+LARGEST_Y = 40.0  # exp(-40): at rest to double precision
+
+
+@dataclass(frozen=True)
+class Tubes:
+    """A family of tubes; each field is a number or an array, broadcast to one length.
+
+    ell      ratio of the inner to the outer radius, a_0/a_1
+    eps      slenderness a_1/L
+    M        shear modulus over the osmotic pressure of the swollen state, mu_s/Pi_00
+    Pi_ratio osmotic pressure scale when hot over that when cold, Pi_0inf/Pi_00
+    Phi_inf  equilibrium polymer fraction when hot over that when cold
+    """
+
+    ell: np.ndarray
+    eps: np.ndarray = 0.1
+    M: np.ndarray = 1.0
+    Pi_ratio: np.ndarray = 1.0
+    Phi_inf: np.ndarray = 2.0
+
+    def __post_init__(self):
+        allowed = {
+            "ell": ("0 < ell < 1", lambda v: (v > 0) & (v < 1)),
+            "eps": ("eps > 0", lambda v: v > 0),
+            "M": ("M >= 0", lambda v: v >= 0),
+            "Pi_ratio": ("Pi_ratio > 0", lambda v: v > 0),
+            "Phi_inf": ("Phi_inf >= 1", lambda v: v >= 1),
+        }
+        values = np.broadcast_arrays(*(np.asarray(getattr(self, k), float) for k in allowed))
+        for (key, (text, inside)), value in zip(allowed.items(), values, strict=True):
+            bad = ~(inside(value) & np.isfinite(value))
+            if bad.any():
+                raise ValueError(f"{key} = {value[bad].flat[0]:g} is not allowed: {text}, finite")
+            object.__setattr__(self, key, value)
+        if (self.eps >= 0.5).any():
+            warnings.warn(
+                f"eps = {self.eps.max():g} is of order one: the slender tube needs eps^2 << 1",
+                stacklevel=3,
+            )
+
+    @property
+    def wall_length(self):
+        """w = eps (1-ell)/4, the axial length over which radial flow heals a disturbance."""
+        return self.eps * (1 - self.ell) / 4
+
+
+def deswelling_time(tubes, percent_left=1.0, reswelling=False):
+    """Time until `percent_left` per cent of the change is still to come: tau_99 by default.
+
+    From Phi = 1 to Phi_inf in a tube heated everywhere, or back if `reswelling`.
+    """
+    if not 0 < percent_left < 100:
+        raise ValueError(f"percent_left = {percent_left!r} is not allowed: 0 < percent_left < 100")
+    if (tubes.Phi_inf == 1).any():
+        raise ValueError(
+            "Phi_inf = 1 is not allowed here: without a change there is no time for it"
+        )
+    start, end, _ = _path(tubes, reswelling)
+    y0 = _y(start, end, reswelling)
+    return _time(
+        y0, _y(end - (end - start) * percent_left / 100, end, reswelling), tubes, reswelling
+    )
+
+
+def deswelling_curve(tau, tubes, reswelling=False):
+    """Phi_1(tau) of a uniformly heated (or cooled) tube; `tau` and the tubes are broadcast.
+
+    tau(y) is monotone and nearly linear, so Newton's iteration inverts it in a few steps.
+    """
+    tau = np.asarray(tau, float)
+    if (tau < 0).any():
+        raise ValueError(f"tau = {tau.min():g} is not allowed: tau >= 0")
+    start, end, _ = _path(tubes, reswelling)
+    if (start == end).any():
+        raise ValueError("Phi_inf = 1 is not allowed here: nothing changes")
+    y0 = _y(start, end, reswelling)
+    low, high = (y0 - LARGEST_Y, y0) if reswelling else (y0, y0 + LARGEST_Y)
+    y = y0 + np.zeros(np.broadcast_shapes(tau.shape, np.shape(y0)))
+    for _ in range(60):
+        step = (tau - _time(y0, y, tubes, reswelling)) / _time_per_y(y, tubes, reswelling)
+        new = np.clip(y + step, low, high)
+        change = np.abs(new - y).max()
+        y = new
+        if change < 1e-13 * LARGEST_Y:
+            return _Phi(y, end, reswelling)
+    raise RuntimeError(f"Newton's iteration for Phi_1 still moves by {change:.1e}")
+
+
+def _path(tubes, reswelling):
+    """Phi at the start and the end, and the osmotic coefficient s on the way."""
+    one = np.ones_like(tubes.Phi_inf)
+    if reswelling:
+        return tubes.Phi_inf, one, one
+    return one, tubes.Phi_inf, tubes.Pi_ratio / tubes.Phi_inf
+
+
+def _y(Phi, end, reswelling):
+    return np.log(Phi - end) if reswelling else np.log(Phi / (end - Phi))
+
+
+def _Phi(y, end, reswelling):
+    return end + np.exp(y) if reswelling else end / (1 + np.exp(-y))
+
+
+def _time_per_y(y, tubes, reswelling):
+    _, end, s = _path(tubes, reswelling)
+    Phi = _Phi(y, end, reswelling)
+    stiffness = s * Phi ** (2 / 3) + 4 * tubes.M / 3
+    return tubes.wall_length**2 / (stiffness * (-Phi if reswelling else end))
+
+
+def _time(y0, y1, tubes, reswelling):
+    """Gauss-Legendre, one node at a time so that a million parameter sets fit in memory."""
+    half = (y1 - y0) / 2
+    return half * sum(
+        weight * _time_per_y(y0 + half * (1 + node), tubes, reswelling)
+        for node, weight in zip(NODES, WEIGHTS, strict=True)
+    )

@@ -1,0 +1,63 @@
+"""The temperature that drives the tube: a pulse of heat from a sudden step at Z = 0.
+
+The tube knows of temperature only which of its parts are hot, that is the position Z_C(tau) of the
+front behind which T > T_C. In the limit of a large Lewis number heat spreads by conduction alone
+(eqn:temp_field), with theta = (T - T_C)/Delta T, a length L and the poroelastic time:
+
+    theta_tau = Le theta_ZZ,    theta(0, tau) = 1,    theta(infinity, tau) = theta(Z, 0) = -1
+
+    theta = 2 erfc( Z / (2 sqrt(Le tau)) ) - 1                       (eqn:temp_field_sol)
+    Z_C   = 2 erfcinv(1/2) sqrt(Le tau)                              (section 3.5)
+
+Another boundary history is another object with `front`, `front_speed` and `theta`; the tube solver
+asks for nothing else.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from scipy.special import erfc, erfcinv
+
+FRONT_CONSTANT = 2 * erfcinv(0.5)  # Z_C / sqrt(Le tau)
+
+
+class Heat(Protocol):
+    """What a temperature field has to offer; one front, at Z = 0 when tau = 0."""
+
+    def front(self, tau):
+        """Z_C(tau), where theta = 0."""
+
+    def front_speed(self, tau):
+        """dZ_C/dtau."""
+
+    def theta(self, Z, tau):
+        """(T - T_C)/Delta T."""
+
+
+@dataclass(frozen=True)
+class StepHeating:
+    """The end Z = 0 is brought to T_C + Delta T at tau = 0 and kept there."""
+
+    Le: float = 10.0
+
+    def __post_init__(self):
+        if not (np.isfinite(self.Le) and self.Le > 0):
+            raise ValueError(f"Le = {self.Le!r} is not allowed: it must be positive and finite")
+
+    def front(self, tau):
+        """Position Z_C where theta = 0."""
+        return FRONT_CONSTANT * np.sqrt(self.Le * np.asarray(tau, float))
+
+    def front_speed(self, tau):
+        """Speed dZ_C/dtau."""
+        return 0.5 * FRONT_CONSTANT * np.sqrt(self.Le / np.asarray(tau, float))
+
+    def theta(self, Z, tau):
+        """Temperature (T - T_C)/Delta T."""
+        return 2 * erfc(np.asarray(Z) / (2 * np.sqrt(self.Le * np.asarray(tau, float)))) - 1
+
+
+def lewis_number(thermal_diffusivity, compositional_diffusivity):
+    """Le = kappa / D, equally the poroelastic time over the thermal time of one length."""
+    return thermal_diffusivity / compositional_diffusivity

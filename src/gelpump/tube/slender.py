@@ -1,0 +1,379 @@
+"""A family of slender tubes that collapse behind a front of heat (eqn:tube_model).
+
+The polymer fraction Phi_1(Z, tau) in the middle of the wall, in units of phi_00, obeys
+
+    Phi_tau + (D/Phi) Phi_Z^2 - (1/3) Phi^{-1/3} Phi_Z Integral_0^Z Phi^{-2/3} Phi_tau du
+        = F + (D Phi_Z)_Z                                                      (eqn:tube_model)
+
+    D = s Phi + (4M/3) Phi^{1/3},    F = 16 Phi^{2/3} D (Phi_0 - Phi) / (eps^2 (1-ell)^2)
+
+    hot,  Z < Z_C(tau):   s = Pi_ratio/Phi_inf,  Phi_0 = Phi_inf
+    cold, Z > Z_C(tau):   s = 1,                 Phi_0 = 1
+
+    Phi(Z, 0) = 1,    Phi_Z = 0 at Z = 0 and far ahead,    Phi and D Phi_Z continuous at Z_C
+
+Z is in units of L, tau of mu_l L^2/(k Pi_00) (eqn:nondimensionalisation). The parameters are those
+of `Tubes`, the front that of `heat`.
+
+Local form. With G the integral, d/dZ(Phi^{-1/3} G) = Phi^{-1} Phi_tau - (1/3) Phi^{-4/3} Phi_Z G,
+which the equation says to be F/Phi + (D Phi_Z/Phi)_Z. Integrated from Z = 0 this gives G without a
+time derivative; put back,
+
+    Phi_tau + [ (2/3)(D/Phi) Phi_Z - (1/3) Integral_0^Z (F/Phi) du ] Phi_Z = F + (D Phi_Z)_Z .
+
+Material form, which is what is solved. The gel moves at -(1/3) Phi^{-1/3} G, so the left side less
+its second term is the rate of change at a material point, and the equation reads
+
+    DPhi/Dtau = F + Phi (D Phi_Z/Phi)_Z .
+
+Take as coordinate the length X that a point had when swollen, dX = Phi^{1/3} dZ, and as unknown the
+stretch lambda = dZ/dX = Phi^{-1/3}. Then the equation is a diffusion equation in conservation form,
+with neither a convection nor an integral:
+
+    lambda_tau = (K lambda_X)_X - S,    K = s lambda^{-5} + (4M/3) lambda^{-3},
+    S = lambda^4 F/3,    K lambda_X = -(D Phi_Z)/(3 Phi)
+
+and what is left of the integral is one number for each tube, the material point X_C where the front
+is:  Z_C(tau) = Integral_0^{X_C} lambda dX.  16/(eps^2 (1-ell)^2) is 1/w^2 with w = eps (1-ell)/4,
+the length over which radial flow heals an axial disturbance, so X is measured in units of w.
+
+Discretisation. Finite volumes between faces X_f(tau) that follow the front: X_C is always a face,
+cells are graded from it to both sides over the length w (or Z_C, while that is shorter), and the
+last face is far enough ahead for Phi = 1. With V the size of a cell,
+
+    d(lambda V)/dtau = [K lambda_X + X_f' lambda] - V S,     [ ] the difference of the two faces.
+
+The flux is taken in Kirchhoff's form: K lambda_X is the gradient of
+k = -(s/4) lambda^{-4} - (2M/3) lambda^{-2}. At the front k jumps and lambda does not; the lambda of
+this face is the one for which the fluxes of the two sides agree. That makes the scheme second order
+at the front too.
+
+All quantities start as powers of sqrt(tau), since Z_C does, so sqrt(tau) is the time of the
+variable-step formula (`gelpump.bdf`); at tau = 0 all cells have the size zero and lambda = 1, which
+is exact. Face velocities come from the same formula as d(lambda V)/dtau, so a uniform state stays
+uniform. Each step is a Newton iteration: FiPy solves for the correction of lambda in all tubes at
+once with the exact Jacobian at fixed X_C, and X_C follows from Z(X_C) = Z_C, which makes the
+remaining error about ten times smaller with each sweep. Extrapolation of all unknowns from the
+steps before is good enough that one or two sweeps suffice.
+"""
+
+import warnings
+
+import numpy as np
+import xarray as xr
+
+from gelpump.bdf import NotConverged, Step, integrate, interpolation_weights
+from gelpump.tube.deswelling import Tubes
+from gelpump.tube.heat import Heat
+from gelpump.tube.sweep import DriftSweep
+
+GRADING_BEHIND = 0.5  # in units of w: where the cells behind the front begin to grow
+GRADING_AHEAD = 4.0  # last cell ahead is about cosh(4) = 27 times the first
+NEWTON_SHARE = 0.1  # of the tolerance that the Newton iteration may leave
+MAX_SWEEPS = 8
+DEPARTED = 0.1  # of Phi_inf - 1: nearer to Phi_0 than this counts as relaxed
+
+
+def solve(
+    tubes: Tubes,
+    heat: Heat,
+    tau,
+    *,
+    cells: tuple[int, int] = (64, 40),
+    tolerance: float = 3e-5,
+    order: int = 3,
+    reach: float = 12.0,
+) -> xr.Dataset:
+    """Phi_1 of all `tubes` at the times `tau`, on cells behind and ahead of the front.
+
+    `tolerance` bounds the local error of Phi_1 in a time step, `order` (2 or 3) is that of the time
+    steps, `reach` the distance from the front to the end of the domain in units of w (Phi_1 = 1
+    beyond). The defaults give Phi_1 to 1e-3 in the maximum norm for Lewis numbers up to some
+    hundreds; above, `_Family.limit` costs accuracy and more cells behind the front are needed.
+    """
+    tau = np.atleast_1d(np.asarray(tau, float))
+    if not (tau[0] > 0 and (np.diff(tau) > 0).all() and np.isfinite(tau).all()):
+        raise ValueError(f"tau = {tau} is not allowed: positive and increasing")
+    if heat.front(0.0) != 0 or not (np.diff(heat.front(tau), prepend=0.0) > 0).all():
+        raise ValueError("heat.front is not allowed: it must start at Z = 0 and move ahead")
+    family = _Family(tubes, heat, cells, reach, NEWTON_SHARE * tolerance)
+    times = np.sqrt(tau)
+    lost = np.zeros(family.tubes)
+    rates = [lost]
+    found, steps = [], 0
+    for step in integrate(
+        family.advance,
+        family.initial(),
+        times[-1],
+        order=order,
+        tolerance=tolerance,
+        first_step=0.01 * family.w.min(),
+        error_norm=family.error_norm,
+    ):
+        steps += 1
+        rates = [family.loss_rate(step), *rates[:order]]
+        while len(found) < len(times) and times[len(found)] <= step.time:
+            t = times[len(found)]
+            found.append(family.profile(t, step, lost + _integral(step, rates, t)))
+        lost = lost + _integral(step, rates, step.time)
+    dataset = _dataset(tubes, tau, heat, family, found)
+    dataset.attrs.update(
+        steps=steps,
+        sweeps=family.sweep.sweeps,
+        cells_behind=cells[0],
+        cells_ahead=cells[1],
+        tolerance=tolerance,
+        order=order,
+        reach=reach,
+    )
+    _report_range(dataset, tolerance)
+    return dataset
+
+
+class _Family:
+    """The semi-discrete equations; arrays are (tube, cell) or (tube, face), X in units of w."""
+
+    def __init__(self, tubes, heat, cells, reach, newton_tolerance):
+        self.behind, ahead = cells
+        self.cells = self.behind + ahead
+        columns = (tubes.wall_length, tubes.M, tubes.Pi_ratio, tubes.Phi_inf)
+        self.w, self.M, Pi_ratio, Phi_inf = (np.reshape(c, (-1, 1)) for c in columns)
+        self.tubes = len(self.w)
+        self.heat, self.reach, self.newton_tolerance = heat, reach, newton_tolerance
+        self.contraction = 0.3  # of the Newton iteration, measured as it goes
+        self.hot = np.arange(self.cells) < self.behind
+        self.s = np.where(self.hot, Pi_ratio / Phi_inf, 1.0)
+        self.Phi_0 = np.where(self.hot, Phi_inf, 1.0)
+        self._back = 1 - np.arange(self.behind + 1) / self.behind
+        self._fore = np.sinh(GRADING_AHEAD * np.arange(1, ahead + 1) / ahead) / np.sinh(
+            GRADING_AHEAD
+        )
+        self.sweep = DriftSweep(self.tubes * self.cells)
+
+    # The state of bdf: lambda (for its prediction and its error), and the two quantities whose
+    # rates of change enter, lambda V and the faces X_f.
+
+    def initial(self):
+        shape = (self.tubes, self.cells)
+        return self._pack(np.ones(shape), np.zeros((self.tubes, self.cells + 1)))
+
+    def _pack(self, stretch, X):
+        return np.concatenate([a.ravel() for a in (stretch, stretch * np.diff(X), X)])
+
+    def _unpack(self, state):
+        parts = np.split(state, [self.tubes * self.cells, 2 * self.tubes * self.cells])
+        return [part.reshape(self.tubes, -1) for part in parts]
+
+    def front(self, t):
+        """Z_C in units of w."""
+        return self.heat.front(t * t) / self.w
+
+    def faces(self, t, X_C):
+        """Graded to the front; both layers are as thin as Z_C allows while that is below w."""
+        X_behind = X_C - GRADING_BEHIND * np.sinh(np.arcsinh(X_C / GRADING_BEHIND) * self._back)
+        X_behind[:, 0] = 0.0
+        layer = self.front(t) / np.sqrt(4 + self.front(t) ** 2)
+        return np.hstack([X_behind, X_C + self.reach * layer * self._fore])
+
+    def source(self, stretch):
+        """w^2 S and its derivative."""
+        resistance = self.s / stretch + 4 * self.M / 3 * stretch
+        drive = self.Phi_0 - stretch**-3.0
+        slope = (4 * self.M / 3 - self.s / stretch**2) * drive + 3 * resistance / stretch**4
+        return resistance * drive / 3, slope / 3
+
+    def _k(self, stretch, s):
+        return -s / 4 * stretch**-4.0 - 2 * self.M / 3 * stretch**-2.0
+
+    def _K(self, stretch, s):
+        return s * stretch**-5.0 + 4 * self.M / 3 * stretch**-3.0
+
+    def inner_faces(self, stretch, X):
+        """Flux K lambda_X and lambda at the faces within a tube, each with its two derivatives.
+
+        Returns flux, (d flux/d left, d flux/d right), lambda, (d lambda/d left, d lambda/d right).
+        """
+        half = np.diff(X) / 2
+        left, right = stretch[:, :-1], stretch[:, 1:]
+        h_left, h_right = half[:, :-1], half[:, 1:]
+        distance = h_left + h_right
+        k, K = self._k(stretch, self.s), self._K(stretch, self.s)
+        flux = np.diff(k) / distance
+        flux_left, flux_right = -K[:, :-1] / distance, K[:, 1:] / distance
+        face_left, face_right = h_right / distance, h_left / distance
+        face = face_left * left + face_right * right
+
+        c = slice(self.behind - 1, self.behind)  # the front
+        s = self.s[:, c], self.s[:, self.behind, None]
+        h = h_left[:, c], h_right[:, c]
+        k_side = k[:, c], k[:, self.behind, None]
+        g = K[:, c] / h[0], K[:, self.behind, None] / h[1]
+        at_front = face[:, c]
+        for _ in range(20):
+            G = self._K(at_front, s[0]) / h[0], self._K(at_front, s[1]) / h[1]
+            excess = (self._k(at_front, s[0]) - k_side[0]) / h[0]
+            excess += (self._k(at_front, s[1]) - k_side[1]) / h[1]
+            at_front = at_front - excess / (G[0] + G[1])
+            if np.abs(excess / (G[0] + G[1])).max() < 1e-13:
+                break
+        flux[:, c] = (self._k(at_front, s[0]) - k_side[0]) / h[0]
+        face[:, c] = at_front
+        face_left[:, c], face_right[:, c] = g[0] / (G[0] + G[1]), g[1] / (G[0] + G[1])
+        flux_left[:, c] = -g[0] * G[1] / (G[0] + G[1])
+        flux_right[:, c] = g[1] * G[0] / (G[0] + G[1])
+        return flux, (flux_left, flux_right), face, (face_left, face_right)
+
+    def limit(self, stretch, velocity, rate, flux_slope, face, face_slope):
+        """Take no more of lambda from the downwind cell than diffusion brings back.
+
+        At the very start, and if heat is much faster than the gel, coarse cells are swept over
+        faster than they diffuse. For Le = 10 the limit bites only far ahead, where lambda = 1.
+        """
+        left, right = face_slope
+        allowed = -rate * flux_slope[0] / np.maximum(velocity, np.finfo(float).tiny)
+        excess = np.maximum(left - allowed, 0.0)
+        left -= excess
+        right += excess
+        face += excess * np.diff(stretch)
+
+    def advance(self, t, guess, alpha, history):
+        """One implicit step in t = sqrt(tau); d/dt is alpha times the new value plus history."""
+        stretch, _, X = self._unpack(guess)
+        _, content_history, X_history = self._unpack(history)
+        Z_C = self.front(t)
+        X_C = X[:, self.behind, None] if X.any() else Z_C  # nothing to extrapolate at first
+        rate = 2 * t / self.w**2  # dtau/dt in units of w^2
+        previous = None
+        for _ in range(MAX_SWEEPS):
+            X = self.faces(t, X_C)
+            V = np.diff(X)
+            velocity = alpha * X + X_history
+            flux, flux_slope, face, face_slope = self.inner_faces(stretch, X)
+            S, S_slope = self.source(stretch)
+            inner, end = velocity[:, 1:-1], velocity[:, -1:]
+            self.limit(stretch, inner, rate, flux_slope, face, face_slope)
+            # what the last face sweeps in is undisturbed: lambda = 1
+            through = np.hstack([np.zeros_like(end), rate * flux + inner * face, end])
+            residual = alpha * stretch * V + content_history - np.diff(through) + rate * V * S
+            from_left, from_right = (
+                rate * f + inner * e for f, e in zip(flux_slope, face_slope, strict=True)
+            )
+            reaction = V * (alpha + rate * S_slope)
+            correction = self.sweep.correction(
+                _on_faces((from_right - from_left) / 2),
+                _on_faces(from_right + from_left),
+                reaction.ravel(),
+                residual.ravel(),
+            ).reshape(stretch.shape)
+            stretch = stretch + correction
+            if not (stretch > 0.1 * stretch.max()).all():
+                raise NotConverged
+            shift = (Z_C - (stretch * V)[:, self.hot].sum(axis=1, keepdims=True)) / face[
+                :, self.behind - 1, None
+            ]
+            X_C = X_C + shift
+            change = max(np.abs(3 * correction / stretch**4).max(), np.abs(shift).max())
+            if previous is not None:
+                self.contraction = np.clip(change / previous, 0.05, 1.0)
+            if change * self.contraction < self.newton_tolerance:
+                return self._pack(stretch, self.faces(t, X_C))
+            if previous is not None and change > 2 * previous:
+                break
+            previous = change
+        raise NotConverged
+
+    def error_norm(self, state, difference):
+        """As a change of Phi_1; a shift of X_C by w changes it by a tenth at fixed Z."""
+        stretch, _, _ = self._unpack(state)
+        d_stretch, _, d_X = self._unpack(difference)
+        return max(
+            np.abs(3 * d_stretch / stretch**4).max(), 0.1 * np.abs(d_X[:, self.behind]).max()
+        )
+
+    def loss_rate(self, step: Step):
+        """Rate in t at which water leaving through the walls shortens the tubes, in units of w."""
+        stretch, _, X = self._unpack(step.solution)
+        return (2 * step.time / self.w**2 * self.source(stretch)[0] * np.diff(X)).sum(axis=1)
+
+    def profile(self, t, step: Step, lost):
+        """What the dataset holds of one time; `lost` is the integral of `loss_rate`."""
+        stretch, _, X = self._unpack(step.at(t))
+        V, Phi = np.diff(X), stretch**-3.0
+        flux, _, face, _ = self.inner_faces(stretch, X)
+        Z_face = self.w * np.hstack([np.zeros_like(V[:, :1]), np.cumsum(stretch * V, axis=1)])
+        shortening = ((1 - stretch) * V).sum(axis=1)
+        departed = np.abs(self.Phi_0 - Phi) > DEPARTED * (self.Phi_0[:, :1] - 1)
+        return {
+            "Phi1": Phi,
+            "Z": (Z_face[:, 1:] + Z_face[:, :-1]) / 2,
+            "F": 3 * self.source(stretch)[0] / stretch**4 / self.w**2,
+            "Z_face": Z_face,
+            "flux": np.pad(-3 * flux * face**-3.0 / self.w, ((0, 0), (1, 1))),
+            "Phi1_front": face[:, self.behind - 1] ** -3.0,
+            "front_error": np.abs(Z_face[:, self.behind] - self.heat.front(t * t)),
+            "water_balance_error": np.abs(shortening - lost) / self.front(t)[:, 0],
+            "departed_length": (np.diff(Z_face) * departed).sum(axis=1),
+        }
+
+
+def _integral(step, rates, end):
+    """From the start of the step to `end`, of the polynomial through the rates at step.times."""
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    half = (end - step.start) / 2
+    at_nodes = [
+        interpolation_weights(step.times, step.start + half * (1 + node)) @ np.array(rates)
+        for node in nodes
+    ]
+    return half * weights @ at_nodes
+
+
+def _on_faces(inner):
+    """A family's face values on FiPy's mesh, where a tube's last face is the next one's first."""
+    return np.append(np.pad(inner, ((0, 0), (1, 0))).ravel(), 0.0)
+
+
+VARIABLES = {
+    "Phi1": ("cell", "polymer fraction in the middle of the wall, in units of phi_00"),
+    "Z": ("cell", "axial position of the cells"),
+    "F": ("cell", "source of polymer fraction by radial flow"),
+    "Z_face": ("face", "axial position of the faces"),
+    "flux": ("face", "axial flux D dPhi1/dZ"),
+    "Phi1_front": (None, "polymer fraction at the front Z_C"),
+    "front_error": (None, "distance of the front's face from Z_C"),
+    "water_balance_error": (
+        None,
+        "shortening of the tube less that by water lost through its walls, over Z_C",
+    ),
+    "departed_length": (
+        None,
+        "length of tube where Phi1 differs from its equilibrium by more than a tenth of the jump",
+    ),
+}
+
+
+def _dataset(tubes, tau, heat, family, found):
+    data = {
+        name: (("ell", "tau", *filter(None, [dim])), np.stack([p[name] for p in found], axis=1))
+        for name, (dim, _) in VARIABLES.items()
+    }
+    dataset = xr.Dataset(data, coords={"ell": np.ravel(tubes.ell), "tau": tau})
+    dataset["Z_C"] = "tau", heat.front(tau)
+    dataset["hot"] = "cell", family.hot
+    for key in ("eps", "M", "Pi_ratio", "Phi_inf"):
+        dataset[key] = "ell", np.ravel(getattr(tubes, key))
+    for name, (_, text) in VARIABLES.items():
+        dataset[name].attrs.update(units="1", long_name=text)
+    dataset["Z_C"].attrs.update(units="1", long_name="position of the front")
+    return dataset
+
+
+def _report_range(dataset, tolerance):
+    """F drives Phi_1 towards 1 or Phi_inf, so it can leave this range by numerical error only."""
+    outside = np.maximum(1 - dataset.Phi1, dataset.Phi1 - dataset.Phi_inf).max(("tau", "cell"))
+    bad = outside > 10 * tolerance
+    if bad.any():
+        warnings.warn(
+            f"Phi_1 leaves [1, Phi_inf] by {float(outside.max()):.1e} for ell = "
+            f"{dataset.ell.values[bad.values]}: refine the cells or the tolerance",
+            stacklevel=3,
+        )

@@ -1,0 +1,105 @@
+"""An independent solution of eqn:tube_model, against which the package's own is measured.
+
+Nothing is shared with `gelpump`: one tube, the equation in the laboratory frame, finite differences
+at nodes (not finite volumes), SUNDIALS' IDA in ln(tau) (not BDF in sqrt(tau)), a boundary value of
+one far ahead (not a vanishing gradient). With F the source and I' = F/Phi, I(0) = 0 (`inflow`),
+
+    Phi_tau + [ (2/3)(D/Phi) Phi_Z - I/3 ] Phi_Z = F + (D Phi_Z)_Z ,
+
+which follows from the printed equation: for G = Integral_0^Z Phi^{-2/3} Phi_tau du it reads
+d/dZ(Phi^{-1/3} G) = F/Phi + d/dZ(D Phi_Z/Phi), so that no time derivative is left in the integral.
+I is solved for together with Phi, which keeps the Jacobian banded. The nodes move with the front,
+and one of them is the front, where the condition is continuity of D Phi_Z.
+"""
+
+import numpy as np
+from scipy.special import erfcinv
+from sksundae.ida import IDA
+
+
+def solve(tau, ell, eps=0.1, M=1.0, Pi_ratio=1.0, Phi_inf=2.0, Le=10.0, nodes=400, rtol=1e-7):
+    """Z and Phi_1 at the `tau`, shape (tau, 2 nodes + 1); the front is in column `nodes`."""
+    n = nodes
+    w = eps * (1 - ell) / 4
+    s = np.arange(n + 1) / n
+    hot = np.array([Pi_ratio / Phi_inf, Phi_inf])
+    cold = np.array([1.0, 1.0])
+    c = 2 * erfcinv(0.5) * np.sqrt(Le)
+
+    def grid(t):
+        """Node positions and tau dZ/dtau at fixed node."""
+        front = c * np.sqrt(t)
+        scale, reach = 2 * w, 16 * w
+        b = np.arcsinh(front / scale)
+        behind = front - scale * np.sinh(b * (1 - s))
+        behind_rate = 1 - np.cosh(b * (1 - s)) * (1 - s) / np.sqrt(1 + (front / scale) ** 2)
+        stretch = np.sinh(3 * s[1:]) / np.sinh(3)
+        ahead = front + stretch * reach * front / (front + scale)
+        ahead_rate = 1 + stretch * reach * scale / (front + scale) ** 2
+        behind[0] = behind_rate[0] = 0.0
+        return np.r_[behind, ahead], 0.5 * front * np.r_[behind_rate, ahead_rate]
+
+    def diffusivity(Phi, side):
+        return side[0] * Phi + 4 * M / 3 * np.cbrt(Phi)
+
+    def source(Phi, side):
+        return Phi ** (2 / 3) * diffusivity(Phi, side) * (side[1] - Phi) / w**2
+
+    def residual(log_tau, y, y_rate, res):
+        t = np.exp(log_tau)
+        Z, Z_rate = grid(t)
+        Phi, inflow = y[0::2], y[1::2]
+        dZ = np.diff(Z)
+        middle = (Phi[1:] + Phi[:-1]) / 2
+        flux = (
+            np.r_[diffusivity(middle[:n], hot), diffusivity(middle[n:], cold)] * np.diff(Phi) / dZ
+        )
+        F_hot, F_cold = source(Phi[: n + 1], hot), source(Phi[n:], cold)
+        F = np.r_[F_hot, F_cold[1:]]
+        D = np.r_[diffusivity(Phi[: n + 1], hot), diffusivity(Phi[n + 1 :], cold)]
+
+        balance = np.zeros_like(Phi)
+        balance[0] = F[0] + 2 * flux[0] / dZ[0]
+        slope = (Phi[2:] - Phi[:-2]) / (Z[2:] - Z[:-2])
+        speed = 2 / 3 * (D / Phi)[1:-1] * slope - inflow[1:-1] / 3
+        balance[1:-1] = F[1:-1] + 2 * np.diff(flux) / (Z[2:] - Z[:-2]) - speed * slope
+        rate = t * balance
+        rate[1:-1] += Z_rate[1:-1] * slope
+        rate[-1] = 0.0
+        res[0::2] = y_rate[0::2] - rate
+
+        one_sided = np.array([1.0, -4.0, 3.0])
+        back = one_sided @ Phi[n - 2 : n + 1] / (one_sided @ Z[n - 2 : n + 1])
+        fore = one_sided @ Phi[n + 2 : n - 1 : -1] / (one_sided @ Z[n + 2 : n - 1 : -1])
+        res[2 * n] = w * (D[n] * back - diffusivity(Phi[n], cold) * fore)
+
+        g_hot, g_cold = F_hot / Phi[: n + 1], F_cold / Phi[n:]
+        gain = np.r_[g_hot[1:] + g_hot[:-1], g_cold[1:] + g_cold[:-1]] / 2 * dZ
+        res[1] = inflow[0]
+        res[3::2] = w * (np.diff(inflow) - gain)
+
+    tau = np.asarray(tau, float)
+    start = 1e-6 * w**2
+    Z, _ = grid(start)
+    y = np.ones(2 * (2 * n + 1))
+    y[1::2] = source(1.0, hot) * np.minimum(Z, Z[n])
+    algebraic = np.r_[2 * n, np.arange(1, y.size, 2)]
+    ida = IDA(
+        residual,
+        rtol=rtol,
+        atol=rtol,
+        linsolver="band",
+        lband=4,
+        uband=4,
+        algebraic_idx=np.sort(algebraic),
+        calc_initcond="yp0",
+        max_num_steps=20000,
+    )
+    span = np.log(np.r_[start, tau])
+    if len(span) == 2:
+        span = np.r_[span[0], span.mean(), span[1]]
+    result = ida.solve(span, y, np.zeros_like(y))
+    if not result.success:
+        raise RuntimeError(f"IDA failed: {result.message}")
+    Phi = result.y[-len(tau) :, 0::2]
+    return np.array([grid(t)[0] for t in tau]), Phi

@@ -29,6 +29,7 @@ rule all:
     input:
         MATERIALS,
         BEADS,
+        SENSITIVITIES,
         FIGURES,
         TABLES,
         "results/claims.json",

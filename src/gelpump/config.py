@@ -120,13 +120,16 @@ def _choice_problems(config) -> Iterator[str]:
         "case": sorted(config["beads"]),
         "temperature": config["materials"]["temperatures"],
     }
-    for kind in ("figures", "tables"):
-        for name, block in config[kind].items():
-            for key, value in block.items():
-                allowed = known.get(key.removesuffix("s"))
-                for each in value if isinstance(value, list) else [value]:
-                    if allowed is not None and each not in allowed:
-                        yield f"{kind}.{name}.{key} = {each!r}: must be one of {allowed}"
+    blocks = {
+        f"{kind}.{name}": b for kind in ("figures", "tables") for name, b in config[kind].items()
+    }
+    blocks["sensitivity"] = config["sensitivity"]
+    for name, block in blocks.items():
+        for key, value in block.items():
+            allowed = known.get(key.removesuffix("s"))
+            for each in value if isinstance(value, list) else [value]:
+                if allowed is not None and each not in allowed:
+                    yield f"{name}.{key} = {each!r}: must be one of {allowed}"
 
 
 def initial_polymer_fraction(gel, case: Mapping[str, Any]) -> float:

@@ -8,6 +8,7 @@ BEADS = expand(
     case=config["beads"],
     model=["lens", "nonlinear"],
 )
+SENSITIVITIES = expand(f"{DATA}/sensitivity_{{case}}.nc", case=config["sensitivity"]["cases"])
 BEAD = ["netcdf", "config", "uncertainty", "bead/__init__", "bead/dataset", "bead/production"]
 LENS_BEAD = [*GEL, *BEAD, "bdf", "finite_volume", "bead/lens"]
 NONLINEAR_BEAD = [*GEL, *BEAD, "bead/nonlinear"]
@@ -91,3 +92,21 @@ rule refine_bead_nonlinear:
         numerics=config["numerics"]["bead_nonlinear"],
     script:
         "../scripts/refine_bead_nonlinear.py"
+
+
+rule bead_sensitivity:
+    input:
+        src=modules(*NONLINEAR_BEAD, "bead/sensitivity"),
+    output:
+        f"{DATA}/sensitivity_{{case}}.nc",
+    log:
+        "results/logs/sensitivity_{case}.log",
+    benchmark:
+        "results/benchmarks/sensitivity_{case}.tsv"
+    params:
+        case=bead_case,
+        gel=bead_gel,
+        numerics=config["numerics"]["bead_nonlinear"],
+        half_units=config["sensitivity"]["half_units"],
+    script:
+        "../scripts/bead_sensitivity.py"

@@ -34,13 +34,13 @@ rule claims:
             caption="../report/claims.rst",
             category="Claims",
         ),
-    params:
-        published=config["published"],
-        gels={name: config["gels"][name] for name in CLAIM_GELS if name in config["gels"]},
-        cases={name: config["beads"][name] for name in CLAIM_BEADS if name in config["beads"]},
     log:
         "results/logs/claims.log",
     benchmark:
         "results/benchmarks/claims.tsv"
+    params:
+        published=config["published"],
+        gels={name: config["gels"][name] for name in CLAIM_GELS if name in config["gels"]},
+        cases={name: config["beads"][name] for name in CLAIM_BEADS if name in config["beads"]},
     script:
         "../scripts/claims.py"

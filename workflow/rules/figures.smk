@@ -63,7 +63,13 @@ rule fig03_swell_bead:
     input:
         lens=f"{DATA}/bead_{config['figures']['fig03_swell_bead']['case']}_lens.nc",
         nonlinear=f"{DATA}/bead_{config['figures']['fig03_swell_bead']['case']}_nonlinear.nc",
-        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig03_swell_bead"),
+        src=modules(
+            "netcdf",
+            "figures/__init__",
+            "figures/style",
+            "figures/bead_panels",
+            "figures/fig03_swell_bead",
+        ),
     output:
         pdf="results/figures/fig03_swell_bead.pdf",
         svg="results/figures/fig03_swell_bead.svg",
@@ -88,7 +94,13 @@ rule fig04_dry_bead:
     input:
         lens=f"{DATA}/bead_{config['figures']['fig04_dry_bead']['case']}_lens.nc",
         nonlinear=f"{DATA}/bead_{config['figures']['fig04_dry_bead']['case']}_nonlinear.nc",
-        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig04_dry_bead"),
+        src=modules(
+            "netcdf",
+            "figures/__init__",
+            "figures/style",
+            "figures/bead_panels",
+            "figures/fig04_dry_bead",
+        ),
     output:
         pdf="results/figures/fig04_dry_bead.pdf",
         svg="results/figures/fig04_dry_bead.svg",

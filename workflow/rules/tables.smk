@@ -9,7 +9,7 @@ TABLES = expand(
 
 rule table2_gel_parameters:
     input:
-        src=modules("tables"),
+        src=modules("tables", "text", "netcdf"),
     output:
         csv="results/tables/table2_gel_parameters.csv",
         md=report(

@@ -270,7 +270,9 @@ def solve_meshes(
             np.append(0.0, R),
             np.pad(np.cbrt(u), ((0, 0), (1, 0))),
             np.array(surface_fractions)[:, mesh],
-            loss=loss,
+            loss,
+            gel=gel.name,
+            temperature=temperature,
             steps=steps,
             sweeps=sweep.sweeps,
         )

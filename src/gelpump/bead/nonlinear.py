@@ -237,5 +237,11 @@ def solve(
     bead.surface_guess = phi_initial  # follow the surface once more from its start
     surface = [bead.surface(row[-1]).polymer_fraction for row in r]
     return bead_dataset(
-        np.array(t), bead.R, np.pad(r, ((0, 0), (1, 0))), np.array(surface), loss, cells=cells
+        np.array(t),
+        bead.R,
+        np.pad(r, ((0, 0), (1, 0))),
+        np.array(surface),
+        loss,
+        gel=gel.name,
+        temperature=temperature,
     )

@@ -63,9 +63,9 @@ import numpy as np
 import xarray as xr
 
 from gelpump.bdf import NotConverged, Step, integrate, interpolation_weights
+from gelpump.finite_volume import DriftSweep
 from gelpump.tube.deswelling import Tubes
 from gelpump.tube.heat import Heat
-from gelpump.tube.sweep import DriftSweep
 
 GRADING_BEHIND = 0.5  # in units of w: where the cells behind the front begin to grow
 GRADING_AHEAD = 4.0  # last cell ahead is about cosh(4) = 27 times the first
@@ -261,9 +261,9 @@ class _Family:
             reaction = V * (alpha + rate * S_slope)
             correction = self.sweep.correction(
                 _on_faces((from_right - from_left) / 2),
-                _on_faces(from_right + from_left),
                 reaction.ravel(),
                 residual.ravel(),
+                _on_faces(from_right + from_left),
             ).reshape(stretch.shape)
             stretch = stretch + correction
             if not (stretch > 0.1 * stretch.max()).all():

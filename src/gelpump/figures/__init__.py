@@ -1,0 +1,1 @@
+"""Figures of the paper: one module each, which draws datasets and solves nothing."""

@@ -1,0 +1,104 @@
+"""Figures 3 and 4 are one drawing: polymer fraction of a bead over time and radius, two panels."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+
+from gelpump.figures import style
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MODELS = {"lens": "LENS", "nonlinear": "nonlinear"}
+COLOURS = {"lens": style.LENS, "nonlinear": style.NONLINEAR}
+RADIUS = r"$r/R_\mathrm{dry}$"
+TIME = r"$t_\mathrm{BMJ}$"
+
+
+def draw(
+    beads: Mapping[str, "xr.Dataset"], case: Mapping, published: Mapping, time_scale: str
+) -> Figure:
+    """(a) Polymer fraction of the LENS bead, with radii; (b) profiles of both models.
+
+    beads: datasets of ``bead.dataset`` for "lens" and "nonlinear".  case: its ``published_times``
+    and ``profile_times`` are used.  published: radii read off the paper at the published times,
+    by model.  time_scale: "log" or "linear".
+    """
+    fig = style.figure(height=2.7)
+    left, right = fig.subplots(1, 2, width_ratios=(1.1, 1.0))
+    _kymograph(fig, left, beads["lens"], time_scale)
+    for model, bead in beads.items():
+        left.plot(
+            bead.t,
+            bead.radius,
+            "-" if model == "lens" else "--",
+            color=COLOURS[model],
+            linewidth=1.3,
+            label=MODELS[model],
+        )
+    for model, radii in published.items():
+        left.plot(
+            case["published_times"],
+            radii,
+            label=f"{MODELS[model]}, published",
+            clip_on=False,
+            zorder=5,
+            **style.PUBLISHED_BY_MODEL[model],
+        )
+    times = case["profile_times"] or beads["lens"].t.values[:: max(1, beads["lens"].t.size // 8)]
+    positive = [t for t in times if t > 0]
+    start = min(positive) if time_scale == "log" else 0.0
+    top = 1.05 * max(float(bead.radius.max()) for bead in beads.values())
+    left.set(xlim=(start, beads["lens"].t.values[-1]), ylim=(0.0, top), xlabel=TIME, ylabel=RADIUS)
+    _profiles(fig, right, beads, times)
+    right.set_xlim(0.0, top)
+    fig.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=4)
+    style.panel_label(left, "a")
+    style.panel_label(right, "b")
+    return fig
+
+
+def _kymograph(fig, ax, bead, time_scale):
+    """Each material shell between two output times is one quadrilateral, as it was computed."""
+    ax.set_xscale(time_scale)
+    first = 1 if time_scale == "log" else 0  # t = 0 is not on a logarithmic axis
+    phi = bead.polymer_fraction.values[first:]
+    t = np.broadcast_to(bead.t.values[first:, None], (len(phi), bead.sizes["face"]))
+    mesh = ax.pcolormesh(
+        t,
+        bead.r_face.values[first:],
+        (phi[1:] + phi[:-1]) / 2,
+        shading="flat",
+        norm=LogNorm(phi.min(), phi.max()),
+        rasterized=True,
+    )
+    style.polymer_fraction_bar(fig, mesh, ax, aspect=25, label=r"polymer fraction $\phi$, LENS")
+
+
+def _profiles(fig, ax, beads: Mapping[str, "xr.Dataset"], times: Sequence[float]):
+    colours = style.shades(style.LATER, len(times))
+    for model, bead in beads.items():
+        for time, colour in zip(times, colours, strict=True):
+            if time > bead.t.values[-1]:  # the run stopped before
+                continue
+            now = bead.sel(t=time, method="nearest")
+            ax.plot(
+                *_profile(now),
+                "-" if model == "lens" else "--",
+                color=colour if model == "lens" else style.NONLINEAR,
+                linewidth=1.3 if model == "lens" else 0.7,
+                dashes=(None, None) if model == "lens" else (3, 2),
+            )
+    ax.set(xlabel=RADIUS, ylabel=r"polymer fraction $\phi$")
+    ax.set_ylim(bottom=0.0)
+    style.steps(fig, ax, times, colours, TIME)
+
+
+def _profile(now):
+    """r and phi from the centre to the surface; at t = 0 the surface has not yet responded."""
+    r, phi = now.r.values, now.polymer_fraction.values
+    surface = phi[-1] if now.t == 0 else float(now.surface_polymer_fraction)
+    return np.r_[0.0, r, now.radius], np.r_[phi[0], phi, surface]

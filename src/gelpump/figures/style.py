@@ -1,0 +1,153 @@
+"""How figures look, and how they reach the disk.
+
+Widths are those of a JFM page, so that what is drawn at 7 to 9 points is printed at that size.
+Colours are Okabe & Ito's, told apart by colour-blind readers; polymer fraction is one sequential
+map throughout, light when swollen, dark when dry.
+"""
+
+import logging
+from collections.abc import Iterable, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.colorbar import Colorbar
+from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap, to_hex
+from matplotlib.figure import Figure
+
+from gelpump.netcdf import publish
+
+# it reports on every table of every font that a PDF embeds
+logging.getLogger("fontTools").setLevel(logging.WARNING)
+
+WIDTH = 5.3  # inches, the text width of the journal
+
+LENS = "#0072B2"
+NONLINEAR = "#D55E00"
+PUBLISHED = "#000000"
+SWELLING, DRYING, SEPARATING = "#0072B2", "#E69F00", "#009E73"
+GREY = "#777777"
+POLYMER_FRACTION = "YlGnBu"
+# as blue and red as the usual maps of temperature, but dark in the middle, where lines are drawn
+TEMPERATURE = LinearSegmentedColormap.from_list("temperature", ["#1f5fb4", "#857a8a", "#b2182b"])
+LATER = LinearSegmentedColormap.from_list("later", ["#b8d6ee", "#4d94cc", "#08306b"])
+
+SETTINGS = {
+    "font.family": "STIXGeneral",
+    "mathtext.fontset": "stix",
+    "font.size": 9,
+    "axes.labelsize": 9,
+    "axes.titlesize": 9,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "axes.linewidth": 0.6,
+    "lines.linewidth": 1.1,
+    "lines.markersize": 4,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "image.cmap": POLYMER_FRACTION,
+    "savefig.dpi": 300,
+    "svg.hashsalt": "gelpump",
+    "svg.fonttype": "path",
+    "pdf.fonttype": 42,
+}
+
+PUBLISHED_MARKER = {
+    "linestyle": "none",
+    "marker": "o",
+    "markersize": 4,
+    "markerfacecolor": "white",
+    "markeredgecolor": PUBLISHED,
+    "markeredgewidth": 0.8,
+}
+PUBLISHED_BY_MODEL = {
+    "lens": PUBLISHED_MARKER | {"markeredgecolor": LENS},
+    "nonlinear": PUBLISHED_MARKER
+    | {"marker": "s", "markersize": 4, "markerfacecolor": "none", "markeredgecolor": NONLINEAR},
+}
+
+# neither date nor version of the writer, so that equal data give equal bytes
+METADATA = {
+    "png": {"Software": None},
+    "pdf": {"CreationDate": None, "Producer": None, "Creator": None},
+    "svg": {"Date": None, "Creator": None},
+}
+
+
+@contextmanager
+def styled():
+    """The settings of this module, for drawing as well as for saving."""
+    with matplotlib.rc_context(SETTINGS):
+        yield
+
+
+def figure(height: float, width: float = WIDTH) -> Figure:
+    """An empty figure of the given size in inches, laid out without overlaps."""
+    fig = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(fig)
+    return fig
+
+
+def panel_label(axes, label: str) -> None:
+    """A panel's letter at the upper left, outside the axes, as the journal sets it."""
+    axes.set_title(f"({label})", loc="left", fontstyle="italic", pad=4)
+
+
+def polymer_fraction_bar(fig, mappable, axes, **options) -> Colorbar:
+    """A colour bar for a logarithmic scale of polymer fractions, with ticks at round ones."""
+    bar = fig.colorbar(mappable, ax=axes, pad=0.02, **options)
+    low, high = mappable.norm.vmin, mappable.norm.vmax
+    ticks = [phi for phi in (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8) if low <= phi <= high]
+    bar.set_ticks(ticks, labels=[f"{tick:g}" for tick in ticks])
+    bar.minorticks_off()
+    return bar
+
+
+def zoom(axes, inset, *, joined: bool) -> None:
+    """Frame in ``axes`` what ``inset``, on its left, magnifies; lines may join its right edge."""
+    inset.tick_params(labelsize=7)
+    inset.yaxis.offsetText.set_fontsize(7)
+    box = axes.indicate_inset_zoom(inset, edgecolor=GREY, linewidth=0.6)
+    for connector, right in zip(box.connectors, (False, False, True, True), strict=True):
+        connector.set_visible(joined and right)
+
+
+def shades(colours: LinearSegmentedColormap, count: int) -> list[str]:
+    """``count`` colours of a map, from its one end to the other."""
+    return [to_hex(colours(share)) for share in np.linspace(0.0, 1.0, count)]
+
+
+def steps(
+    fig: Figure, axes, values: Sequence[float], colours: Sequence[str], label: str
+) -> Colorbar:
+    """A colour bar beside ``axes`` with one step a value: the legend of a family of curves."""
+    edges = np.arange(len(values) + 1) - 0.5
+    mappable = ScalarMappable(BoundaryNorm(edges, len(values)), ListedColormap(list(colours)))
+    bar = fig.colorbar(mappable, ax=axes, ticks=range(len(values)), label=label, pad=0.02)
+    bar.ax.set_yticklabels([f"{value:g}" for value in values], fontsize=7.5)
+    bar.ax.tick_params(which="both", length=0)
+    return bar
+
+
+def save(fig: Figure, paths: Iterable[str | Path]) -> None:
+    """Write ``fig`` to each path in the format of its suffix; a file is whole or not there.
+
+    The layout is settled once, so that all formats show the same and none waits for it again.
+    """
+    fig.draw_without_rendering()
+    fig.set_layout_engine("none")
+    for path in map(Path, paths):
+        suffix = path.suffix.lstrip(".")
+        partial = path.with_name(f".{path.name}.partial")
+        try:
+            fig.savefig(partial, format=suffix, metadata=METADATA[suffix])
+            publish(partial, path)
+        finally:
+            partial.unlink(missing_ok=True)

@@ -1,0 +1,1 @@
+"""The ledger: where the paper disagrees with itself or with what follows from its equations."""

@@ -1,0 +1,1 @@
+"""Tubes that collapse: uniformly, or behind a pulse of heat that pumps water (section 3)."""

@@ -1,0 +1,141 @@
+"""What a configuration may hold, and how a refusal reads."""
+
+import copy
+import itertools
+from pathlib import Path
+
+import pytest
+import yaml
+
+from gelpump import config as checked
+
+PROJECT = Path(__file__).resolve().parents[1]
+SCHEMA = yaml.safe_load((PROJECT / "workflow/schemas/config.schema.yaml").read_text())
+PAPER = yaml.safe_load((PROJECT / "config/config.yaml").read_text())
+QUICK = yaml.safe_load((PROJECT / "config/quick.yaml").read_text())
+
+
+def changed(path: str, value):
+    """The paper's configuration with one key set (or deleted, for ...)."""
+    config = copy.deepcopy(PAPER)
+    *parents, last = path.split(".")
+    block = config
+    for key in parents:
+        block = block[key]
+    if value is ...:
+        del block[last]
+    else:
+        block[last] = value
+    return config
+
+
+def merged(config, update):
+    for key, value in update.items():
+        if isinstance(value, dict):
+            merged(config.setdefault(key, {}), value)
+        else:
+            config[key] = value
+    return config
+
+
+def test_the_papers_configuration_is_accepted():
+    config = copy.deepcopy(PAPER)
+    checked.validate(config, SCHEMA)
+    assert config["beads"]["drying"]["branch"] == "swollen"  # a default, filled in
+
+
+def test_the_quick_configuration_is_accepted():
+    checked.validate(merged(copy.deepcopy(PAPER), QUICK), SCHEMA)
+
+
+def test_an_empty_numerics_block_gets_every_default():
+    config = changed("numerics", ...)
+    checked.validate(config, SCHEMA)
+    assert config["numerics"]["bead_lens"]["cells"] == 160
+
+
+REFUSALS = [
+    # key, value, what the refusal must say beside the key and the value
+    ("beads.drying.gel", "HTT", "must be one of the energy-based gels ['ANB', 'HHT']"),
+    ("gels.HHT.Omega", -720.0, "exclusiveMinimum 0"),
+    ("gels.HHT.Omega", "many", "must be of type number"),
+    ("gels.HHT.A0", True, "must be of type number"),
+    ("gels.HHT.A0", float("nan"), "must be a finite number"),
+    ("gels.HHT.model", "magic", "must be one of ['energy-based', 'piecewise-linear']"),
+    ("gels.HHT.temperature_range", [320.0, 290.0], "the first must be lower than the second"),
+    ("beads.drying.temperature_final", 400.0, "must be within gels.HHT.temperature_range"),
+    ("beads.drying.temperature_initial", 100.0, "290.0 to 320.0 K"),
+    ("beads.drying.end", 0.0, "exclusiveMinimum 0"),
+    ("beads.drying.branch", "wet", "must be one of ['swollen', 'dry']"),
+    ("beads.drying.published_times", [9.0], "must not lie after beads.drying.end = 8.0"),
+    ("numerics.bead_lens.cells", 4, "minimum 16"),
+    ("numerics.bead_lens.cells", 99.5, "must be of type integer"),
+    ("numerics.bead_lens.tolerance", "1e-5", "must be of type number"),
+    ("materials.temperatures", [305.0, 300.0], "must increase"),
+    ("figures.fig05_spinodal.cases", ["drying", "melting"], "must be one of"),
+    ("figures.fig02_osmotic_schema.temperatures", [305.0, 306.0], "must be one of"),
+]
+
+
+@pytest.mark.parametrize(("key", "value", "allowed"), REFUSALS)
+def test_a_refusal_names_key_value_and_what_is_allowed(key, value, allowed):
+    with pytest.raises(checked.ConfigError) as refusal:
+        checked.validate(changed(key, value), SCHEMA)
+    message = str(refusal.value)
+    assert key in message
+    wrong = [v for v in value if not isinstance(v, float)] if isinstance(value, list) else [value]
+    assert all(repr(each) in message for each in wrong[-1:])
+    assert allowed in message
+
+
+def test_a_misspelt_key_is_refused():
+    config = changed("beads.drying.temprature_final", 307.0)
+    with pytest.raises(checked.ConfigError, match=r"beads\.drying\.temprature_final = 307\.0") as e:
+        checked.validate(config, SCHEMA)
+    assert "'temperature_final'" in str(e.value)
+
+
+def test_a_missing_key_is_refused():
+    with pytest.raises(checked.ConfigError, match=r"beads\.drying: missing \['end'\]"):
+        checked.validate(changed("beads.drying.end", ...), SCHEMA)
+    with pytest.raises(checked.ConfigError, match=r"gels\.HHT\.B1 is missing"):
+        checked.validate(changed("gels.HHT.B1", ...), SCHEMA)
+
+
+def test_an_initial_state_without_a_solution_is_refused():
+    config = changed("gels.HHT.A0", 40.0)  # phases separate at every temperature
+    config["beads"]["drying"]["phi_initial"] = 0.3
+    with pytest.raises(checked.ConfigError, match=r"beads\.drying: no initial state: phi_initial"):
+        checked.validate(config, SCHEMA)
+
+
+def test_a_key_of_another_model_is_refused():
+    with pytest.raises(checked.ConfigError, match=r"gels\.HHT\.Phi_inf = 2\.0: unknown key"):
+        checked.validate(changed("gels.HHT.Phi_inf", 2.0), SCHEMA)
+
+
+def test_all_problems_are_told_at_once():
+    config = changed("beads.drying.gel", "HTT")
+    config["beads"]["swelling"]["temperature_final"] = 1000.0
+    with pytest.raises(checked.ConfigError) as refusal:
+        checked.validate(config, SCHEMA)
+    assert "beads.drying.gel" in str(refusal.value)
+    assert "beads.swelling.temperature_final" in str(refusal.value)
+
+
+def described(schema, path=()):
+    """Every property of the schema, with its path."""
+    for name, rule in schema.get("properties", {}).items():
+        yield (*path, name), rule
+        yield from described(rule, (*path, name))
+    if isinstance(schema.get("additionalProperties"), dict):
+        yield from described(schema["additionalProperties"], (*path, "*"))
+
+
+def test_every_key_has_a_description_and_unknown_ones_are_refused():
+    undescribed = [".".join(path) for path, rule in described(SCHEMA) if "description" not in rule]
+    assert undescribed == []
+    objects = itertools.chain([((), SCHEMA)], described(SCHEMA))
+    for path, rule in objects:
+        if rule.get("type") == "object":
+            assert "additionalProperties" in rule, path

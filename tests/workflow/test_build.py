@@ -1,0 +1,204 @@
+"""Builds: what is made, what is made again, and what is left when something goes wrong."""
+
+import hashlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytestmark = pytest.mark.xdist_group("workflow")
+
+
+def digests(folder: Path, *patterns: str) -> dict[str, str]:
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for pattern in patterns
+        for path in sorted(folder.rglob(pattern))
+    }
+
+
+def said(result) -> str:
+    return result.stdout + result.stderr
+
+
+def test_everything_is_built_once(built):
+    assert "Nothing to be done" in said(built.snakemake())
+    claims = json.loads((built.path / "results/claims.json").read_text())
+    assert len({claim["id"] for claim in claims}) == len(claims) > 20
+    for log in (built.path / "results/logs").iterdir():
+        assert "Traceback" not in log.read_text(), log
+
+
+def test_a_rebuild_gives_the_same_bytes(built):
+    results = built.path / "results"
+    patterns = ("*.nc", "*.png", "*.pdf", "*.svg")
+    before = digests(results, *patterns)
+    again = [
+        "materials",
+        "bead_lens",
+        "bead_nonlinear",
+        "fig03_swell_bead",
+        "fig05_spinodal",
+        "fig13_osmotic",
+    ]
+    result = built.snakemake("--forcerun", *again)
+    assert result.returncode == 0, said(result)
+    assert digests(results, *patterns) == before
+    assert len(before) > 30
+
+
+def test_datasets_follow_the_cf_conventions(built):
+    files = sorted((built.path / "results/data").rglob("*.nc"))
+    result = subprocess.run(
+        ["compliance-checker", "--test=cf:1.11", "--criteria=strict", *map(str, files)],
+        capture_output=True,
+        text=True,
+        env=os.environ | {"PATH": f"{Path(os.sys.executable).parent}:{os.environ['PATH']}"},
+        check=False,
+    )
+    assert result.returncode == 0, result.stdout[-4000:] + result.stderr[-2000:]
+    assert result.stdout.count("All tests passed!") == len(files), result.stdout[-4000:]
+
+
+def test_one_figure_needs_nothing_else(clone):
+    assert clone.rules("fig05_spinodal") == {"materials", "bead_lens", "fig05_spinodal"}
+    assert clone.rules("fig14_equilibrium") == {"materials", "fig14_equilibrium"}
+    assert clone.rules("table2_gel_parameters") == {"table2_gel_parameters"}
+
+
+def append_comment(path: Path) -> None:
+    path.write_text(path.read_text() + "\n# edited\n")
+
+
+@pytest.mark.parametrize(
+    ("edited", "rerun", "kept"),
+    [
+        ("figures/style.py", {"fig03_swell_bead"}, {"materials", "bead_lens", "claims"}),
+        ("figures/fig13_osmotic.py", {"fig13_osmotic"}, {"fig14_equilibrium", "materials"}),
+        (
+            "bead/lens.py",
+            {"bead_lens", "refine_bead_lens", "fig03_swell_bead", "claims"},
+            {"bead_nonlinear", "materials", "fig14_equilibrium"},
+        ),
+        (
+            "bead/nonlinear.py",
+            {"bead_nonlinear", "refine_bead_nonlinear", "fig03_swell_bead"},
+            {"bead_lens", "fig05_spinodal", "materials"},
+        ),
+        ("claims/beads.py", {"claims"}, {"bead_lens", "fig03_swell_bead"}),
+    ],
+)
+def test_an_edit_reruns_what_depends_on_it(built, edited, rerun, kept):
+    source = built.path / "src/gelpump" / edited
+    original, stamp = source.read_text(), source.stat().st_mtime_ns
+    try:
+        append_comment(source)
+        rules = built.rules()
+    finally:
+        source.write_text(original)
+        os.utime(source, ns=(stamp, stamp))
+    assert rerun <= rules
+    assert not kept & rules
+    assert built.rules() == set()
+
+
+def test_a_changed_number_reruns_the_rules_that_take_it(built, tmp_path):
+    config = (built.path / "config/quick.yaml").read_text()
+    changed = tmp_path / "changed.yaml"
+    changed.write_text(
+        config + "\nbeads:\n  swelling:\n    end: 0.9\n    published_times: []\n"
+        "    profile_times: [0.1]\n"
+    )
+    result = built.snakemake("--dry-run", "--quiet", "rules", config=str(changed))
+    assert result.returncode == 0, said(result)
+    detailed = said(built.snakemake("--dry-run", config=str(changed)))
+    assert "bead_swelling_lens.nc" in detailed
+    assert "output: results/data/bead_drying_lens.nc" not in detailed
+    assert "output: results/data/materials_HHT.nc" not in detailed
+
+
+def test_a_killed_build_leaves_nothing_that_looks_whole(built, clone):
+    target = "results/data/bead_drying_lens.nc"
+    process = subprocess.Popen(
+        clone.command(target),
+        cwd=clone.path,
+        env=clone.environment(),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    log = clone.path / "results/logs/bead_drying_lens.log"
+    deadline = time.monotonic() + 60
+    while not log.exists() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert log.exists()
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    assert not (clone.path / target).exists()
+    unlock = clone.snakemake("--unlock")
+    assert unlock.returncode == 0, said(unlock)
+    again = clone.snakemake(target)
+    assert again.returncode == 0, said(again)
+    assert (clone.path / target).read_bytes() == (built.path / target).read_bytes()
+
+
+def test_a_failed_job_tells_why_and_leaves_no_figure(built, tmp_path):
+    broken = built.path / "results/data/materials_ANB.nc"
+    kept = tmp_path / "materials_ANB.nc"
+    shutil.copy2(broken, kept)
+    figure = built.path / "results/figures/fig14_equilibrium.png"
+    drawn = figure.read_bytes()
+    try:
+        broken.write_bytes(kept.read_bytes()[:2000])
+        result = built.snakemake("--forcerun", "fig14_equilibrium", "--", "fig14_equilibrium")
+        assert result.returncode != 0
+        assert not figure.exists()
+        assert "Traceback" in (built.path / "results/logs/fig14_equilibrium.log").read_text()
+    finally:
+        shutil.copy2(kept, broken)
+    result = built.snakemake("fig14_equilibrium")
+    assert result.returncode == 0, said(result)
+    assert figure.read_bytes() == drawn
+
+
+def test_snakemake_lint_is_content(clone):
+    result = clone.snakemake("--lint")
+    assert result.returncode == 0, said(result)
+    assert "Congratulations" in said(result)
+
+
+def test_a_refusal_comes_before_any_job(clone):
+    bad = clone.path / "bad.yaml"
+    bad.write_text("beads: {drying: {gel: HTT}}\n")
+    result = clone.snakemake(config="bad.yaml")
+    assert result.returncode != 0
+    assert "beads.drying.gel = 'HTT': must be one of" in said(result)
+    assert "['ANB', 'HHT']" in said(result)
+    assert not (clone.path / "results").exists()
+
+
+def test_another_gel_needs_only_a_config_block(clone):
+    (clone.path / "mine.yaml").write_text(
+        "gels:\n"
+        "  mine: {model: energy-based, A0: -12.947, A1: 17.92, B0: 0.04496, B1: -0.0569,\n"
+        "         Omega: 150.0, temperature_range: [290.0, 320.0]}\n"
+        "figures:\n"
+        "  fig14_equilibrium: {gels: [ANB, mine]}\n"
+    )
+    result = clone.snakemake("fig14_equilibrium", config="mine.yaml")
+    assert result.returncode == 0, said(result)
+    assert (clone.path / "results/data/materials_mine.nc").exists()
+
+
+def test_a_finite_uncertainty_stands_beside_every_computed_number(built):
+    for claim in json.loads((built.path / "results/claims.json").read_text()):
+        if isinstance(claim["computed"], bool) or claim["computed"] is None:
+            continue
+        assert claim["uncertainty"] is not None, claim["id"]
+        assert np.all(np.asarray(claim["uncertainty"]) > 0), claim["id"]

@@ -1,0 +1,22 @@
+"""Rule fig03_swell_bead: a bead swells, in both models."""
+
+from _helpers import job
+
+with job(snakemake):
+    from gelpump import netcdf
+    from gelpump.figures import fig03_swell_bead, style
+
+    models = ("lens", "nonlinear")
+    radii = {
+        model: block["value"]
+        for claim, block in snakemake.params.published.items()
+        for model in models
+        if claim.endswith(f"-{model}")
+    }
+    with style.styled():
+        fig = fig03_swell_bead.draw(
+            {model: netcdf.read(snakemake.input[model]) for model in models},
+            snakemake.params.case,
+            radii,
+        )
+        style.save(fig, snakemake.output)

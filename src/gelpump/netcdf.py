@@ -17,6 +17,12 @@ PAPER = (
 )
 
 
+def variable(dims, values, long_name: str, comment: str = ""):
+    """A dimensionless variable as xarray takes it, with the attributes that CF asks for."""
+    attrs = {"long_name": long_name, "units": "1"}
+    return dims, values, attrs | ({"comment": comment} if comment else {})
+
+
 def write(dataset: "xr.Dataset", path: str | Path, title: str, parameters: Mapping[str, Any]):
     """Write ``dataset`` to ``path``, with ``parameters`` (the rule's config) in its attributes.
 

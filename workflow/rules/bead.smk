@@ -18,14 +18,6 @@ wildcard_constraints:
     case="[a-z][a-z0-9]*",
 
 
-def bead_case(wildcards):
-    return config["beads"][wildcards.case]
-
-
-def bead_gel(wildcards):
-    return config["gels"][config["beads"][wildcards.case]["gel"]]
-
-
 rule bead_lens:
     input:
         src=modules(*LENS_BEAD),

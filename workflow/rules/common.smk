@@ -1,4 +1,4 @@
-# What every rule uses: the checked configuration and the modules a script depends on.
+# What all rules share, beginning with the checked configuration.
 import yaml
 
 from gelpump import config as checked
@@ -38,3 +38,11 @@ GEL = [
 def published(*claims):
     """What the paper prints or draws for these claims; a claim without an entry is left out."""
     return {claim: config["published"][claim] for claim in claims if claim in config["published"]}
+
+
+def bead_case(wildcards):
+    return config["beads"][wildcards.case]
+
+
+def bead_gel(wildcards):
+    return config["gels"][config["beads"][wildcards.case]["gel"]]

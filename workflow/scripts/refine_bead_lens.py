@@ -16,8 +16,15 @@ with job(snakemake):
         print(cells, tolerance, bead.attrs)
         return production.measured(bead, gel, temperature)
 
+    def run_meshes(meshes, tolerance):
+        beads = lens.solve_meshes(gel, temperature, phi_initial, times, meshes, tolerance=tolerance)
+        print(meshes, tolerance, beads[0].attrs)
+        if beads[0].attrs["stopped"]:  # at the first mesh's time: each has its own
+            return [run(cells, tolerance) for cells in meshes]
+        return [production.measured(bead, gel, temperature) for bead in beads]
+
     netcdf.write(
-        production.refinement(run, numerics["cells"], numerics["tolerance"]),
+        production.refinement(run, run_meshes, numerics["cells"], numerics["tolerance"]),
         snakemake.output[0],
         title=f"{snakemake.wildcards.case} bead, LENS model, refinement",
         parameters={"case": case, "gel": snakemake.params.gel, "numerics": numerics},

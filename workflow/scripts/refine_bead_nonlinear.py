@@ -16,8 +16,11 @@ with job(snakemake):
         print(cells, tolerance, bead.attrs)
         return production.measured(bead, gel, temperature)
 
+    def run_meshes(meshes, tolerance):
+        return [run(cells, tolerance) for cells in meshes]
+
     netcdf.write(
-        production.refinement(run, numerics["cells"], numerics["tolerance"]),
+        production.refinement(run, run_meshes, numerics["cells"], numerics["tolerance"]),
         snakemake.output[0],
         title=f"{snakemake.wildcards.case} bead, fully nonlinear model, refinement",
         parameters={"case": case, "gel": snakemake.params.gel, "numerics": numerics},

@@ -4,6 +4,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from gelpump.netcdf import variable
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -50,10 +52,6 @@ def bead_dataset(
     tells of the ``loss`` that ended the run.
     """
     import xarray as xr
-
-    def variable(dims, values, long_name, comment=""):
-        attrs = {"long_name": long_name, "units": "1"}
-        return dims, values, attrs | ({"comment": comment} if comment else {})
 
     volume = np.diff(faces**3, axis=1)
     phi = np.diff(dry_faces**3) / volume

@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from gelpump.materials import Gel
 
 LOSS = "the radial stress no longer grows with the radial stretch"
+THINNEST_SHARE = 0.01
 ABSOLUTE = 0.01  # absolute tolerance over the relative one: radii are of order one
 MARGIN = 1e-9  # trial steps of CVODE may tangle shells: keeps their f within the gel's bounds
 
@@ -178,10 +179,11 @@ def solve(
     """The bead from uniform `phi_initial`, at constant `temperature` for t > 0.
 
     times: increasing from 0, in t_BMJ. cells: number of shells, at least 3. tolerance: CVODE's,
-    for the face radii. The dataset has dims (t, cell) and face: radius(t), r(t, cell) where a
-    shell's stress lives, r_face(t, face), polymer_fraction(t, cell), surface_polymer_fraction(t),
-    polymer_volume_error(t). When phases separate it ends there, and its attribute `stopped` says
-    at which t, r and phi; otherwise `stopped` is empty.
+    for the face radii; a hundredth of the thinnest shell if that is less. The dataset has dims
+    (t, cell) and face: radius(t), r(t, cell) where a shell's stress lives, r_face(t, face),
+    polymer_fraction(t, cell), surface_polymer_fraction(t), polymer_volume_error(t). When phases
+    separate it ends there, and its attribute `stopped` says at which t, r and phi; otherwise
+    `stopped` is empty.
 
     Raises ValueError for a phi_initial outside the gel's bounds, other times or too few cells.
     """
@@ -197,6 +199,8 @@ def solve(
         raise ValueError(f"cells = {cells}: must be at least 3")
 
     bead = Bead(gel, temperature, phi_initial, cells)
+    # an error of the faces as large as a shell is thick would tangle them
+    rtol = min(tolerance, THINNEST_SHARE * np.diff(bead.R).min())
 
     def rate(t, r, drdt):
         drdt[:] = bead.rate(r)
@@ -214,8 +218,8 @@ def solve(
     else:
         solver = CVODE(
             rate,
-            rtol=tolerance,
-            atol=ABSOLUTE * tolerance,
+            rtol=rtol,
+            atol=ABSOLUTE * rtol,
             linsolver="band",
             lband=1,
             uband=1,
@@ -235,6 +239,8 @@ def solve(
                 loss = bead.loss(float(step.t), r[-1])
                 break
     bead.surface_guess = phi_initial  # follow the surface once more from its start
+    if np.min(np.diff(r, axis=1, prepend=0.0)) <= 0:
+        raise RuntimeError(f"shells tangled: tolerance = {tolerance} is too loose")
     surface = [bead.surface(row[-1]).polymer_fraction for row in r]
     return bead_dataset(
         np.array(t),

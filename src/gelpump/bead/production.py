@@ -11,7 +11,8 @@ from gelpump.uncertainty import convergence_index
 if TYPE_CHECKING:
     import xarray as xr
 
-Run = Callable[[int, float], "xr.Dataset"]  # of cells and tolerance
+Run = Callable[[int, float], "xr.Dataset"]
+MeshRun = Callable[[Sequence[int], float], list["xr.Dataset"]]
 
 MEASURED = ("radius", "surface_polymer_fraction", "smallest_diffusivity", "steepest_gradient")
 TOLERANCE_FACTOR = 4.0
@@ -69,20 +70,19 @@ def measured(bead: "xr.Dataset", gel, temperature: float) -> "xr.Dataset":
     )
 
 
-def refinement(run: Run, cells: int, tolerance: float) -> "xr.Dataset":
+def refinement(run: Run, run_meshes: MeshRun, cells: int, tolerance: float) -> "xr.Dataset":
     """A case on half and twice the cells, and with tolerances four times looser and tighter.
 
-    Dims (level, t), level 0 being the production run; ``NAME_uncertainty(t)`` adds the estimated
-    errors of space and time.  Runs that stop early are compared up to the first one's stop.
+    run(cells, tolerance) makes one run, run_meshes(list of cells, tolerance) several that may
+    share their time steps.  Dims (level, t), level 0 having the production resolution;
+    ``NAME_uncertainty(t)`` adds the estimated errors of space and time.  Runs that stop early are
+    compared up to the first one's stop.
     """
-    levels = [
-        (cells, tolerance),
-        (cells // 2, tolerance),
-        (2 * cells, tolerance),
-        (cells, TOLERANCE_FACTOR * tolerance),
-        (cells, tolerance / TOLERANCE_FACTOR),
-    ]
-    return compared(levels, [run(*level) for level in levels])
+    meshes = [cells, cells // 2, 2 * cells]
+    tolerances = [TOLERANCE_FACTOR * tolerance, tolerance / TOLERANCE_FACTOR]
+    levels = [(mesh, tolerance) for mesh in meshes] + [(cells, other) for other in tolerances]
+    runs = run_meshes(meshes, tolerance) + [run(cells, other) for other in tolerances]
+    return compared(levels, runs)
 
 
 def compared(levels: Sequence[tuple[int, float]], runs: Sequence["xr.Dataset"]) -> "xr.Dataset":

@@ -60,7 +60,7 @@ def sensitivity(
         },
         coords={
             "t": ("t", runs[0].t.values, runs[0].t.attrs),
-            "parameter": (
+            "parameter_name": (
                 "parameter",
                 list(half_units),
                 {"long_name": "name of the parameter"},

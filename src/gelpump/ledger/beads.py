@@ -88,7 +88,7 @@ def printed_digits(data: Mapping, cases: Mapping, published: Mapping) -> Entry:
     change = data["sensitivity_drying"].radius_change
     last = cases["drying"]["published_times"][-1]
     half = change.sel(t=last, method="nearest")
-    largest = half.parameter.values[np.argmax(np.abs(half.values))]
+    largest = half.parameter_name.values[np.argmax(np.abs(half.values))]
     return Entry(
         "printed-digits-of-table-2",
         "table 2, figure 4",
@@ -97,7 +97,7 @@ def printed_digits(data: Mapping, cases: Mapping, published: Mapping) -> Entry:
         f"moves the radius at t_BMJ = {last:g} by more than the bead's own change, to first order",
         np.abs(half.values).tolist(),
         "change of the radius for half a unit of "
-        + ", ".join(str(name) for name in half.parameter.values),
+        + ", ".join(str(name) for name in half.parameter_name.values),
         published["dry-radius-nonlinear"]["resolution"],
         printed_digits,
         "data/sensitivity_drying.nc: radius_change",

@@ -64,6 +64,8 @@ import xarray as xr
 
 from gelpump.bdf import NotConverged, Step, integrate, interpolation_weights
 from gelpump.finite_volume import DriftSweep
+from gelpump.netcdf import variable
+from gelpump.tube import scaling
 from gelpump.tube.deswelling import Tubes
 from gelpump.tube.heat import Heat
 
@@ -333,38 +335,46 @@ def _on_faces(inner):
 
 
 VARIABLES = {
-    "Phi1": ("cell", "polymer fraction in the middle of the wall, in units of phi_00"),
-    "Z": ("cell", "axial position of the cells"),
-    "F": ("cell", "source of polymer fraction by radial flow"),
-    "Z_face": ("face", "axial position of the faces"),
-    "flux": ("face", "axial flux D dPhi1/dZ"),
-    "Phi1_front": (None, "polymer fraction at the front Z_C"),
-    "front_error": (None, "distance of the front's face from Z_C"),
+    "Phi1": ("cell", "polymer fraction in the middle of the wall", scaling.POLYMER),
+    "Z": ("cell", "axial position of the cells", scaling.AXIAL),
+    "F": ("cell", "source of polymer fraction by radial flow", scaling.RATE),
+    "Z_face": ("face", "axial position of the faces", scaling.AXIAL),
+    "flux": ("face", "axial flux D dPhi1/dZ", ""),
+    "Phi1_front": (None, "polymer fraction in the middle of the wall at Z_C", scaling.POLYMER),
+    "front_error": (None, "distance of the front's face from Z_C", scaling.AXIAL),
     "water_balance_error": (
         None,
         "shortening of the tube less that by water lost through its walls, over Z_C",
+        "",
     ),
     "departed_length": (
         None,
         "length of tube where Phi1 differs from its equilibrium by more than a tenth of the jump",
+        scaling.AXIAL,
     ),
+}
+PARAMETERS = {
+    "eps": "slenderness a_1/L",
+    "M": "shear modulus over the osmotic pressure scale when cold",
+    "Pi_ratio": "osmotic pressure scale when hot over that when cold",
+    "Phi_inf": "equilibrium polymer fraction when hot over that when cold",
 }
 
 
 def _dataset(tubes, tau, heat, family, found):
     data = {
-        name: (("ell", "tau", *filter(None, [dim])), np.stack([p[name] for p in found], axis=1))
-        for name, (dim, _) in VARIABLES.items()
+        name: variable(
+            ("ell", "tau", *filter(None, [dim])), np.stack([p[name] for p in found], axis=1), *text
+        )
+        for name, (dim, *text) in VARIABLES.items()
     }
-    dataset = xr.Dataset(data, coords={"ell": np.ravel(tubes.ell), "tau": tau})
-    dataset["Z_C"] = "tau", heat.front(tau)
-    dataset["hot"] = "cell", family.hot
-    for key in ("eps", "M", "Pi_ratio", "Phi_inf"):
-        dataset[key] = "ell", np.ravel(getattr(tubes, key))
-    for name, (_, text) in VARIABLES.items():
-        dataset[name].attrs.update(units="1", long_name=text)
-    dataset["Z_C"].attrs.update(units="1", long_name="position of the front")
-    return dataset
+    data["Z_C"] = variable("tau", heat.front(tau), "position of the front", scaling.AXIAL)
+    data["hot"] = variable("cell", family.hot, "whether the cell is behind the front")
+    for key, text in PARAMETERS.items():
+        data[key] = variable("ell", np.ravel(getattr(tubes, key)), text)
+    return xr.Dataset(
+        data, coords={"ell": scaling.ell(np.ravel(tubes.ell)), "tau": scaling.tau(tau)}
+    )
 
 
 def _report_range(dataset, tolerance):

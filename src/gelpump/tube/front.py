@@ -1,0 +1,116 @@
+"""The drying front: how sharp it is, and how that depends on the thickness of the wall.
+
+Near the front the solved Phi_1 is described by one number A, the sharpness (eqn:tanh_fit):
+
+    Phi_1 ~ Phi_inf - (Phi_inf - 1)/2 { 1 + tanh[A (Z - Z_C)] }
+
+A is the value with the least integral of the squared misfit over |Z - Z_C| <= window. The cells are
+graded, so each is weighted with its length inside the window: a sum over unweighted cells would
+count the front many times over. The profile is a function of Z/w and tau/w^2 only, with
+w = eps (1-ell)/4, so a window in units of w is the same for all tubes.
+
+A power law A = c (1-ell)^-n is fitted to the logarithms.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+WINDOW = 8.0  # in units of w: a wider one changes A by less than 1e-4
+
+
+def tanh_profile(x, Phi_inf):
+    """Phi_1 of eqn:tanh_fit at x = A (Z - Z_C)."""
+    return Phi_inf - (Phi_inf - 1) / 2 * (1 + np.tanh(x))
+
+
+def wall_length(pulse):
+    """w = eps (1-ell)/4 of each tube, shape (ell,)."""
+    return pulse.eps.values * (1 - pulse.ell.values) / 4
+
+
+def sharpness(pulse, window=WINDOW, in_units_of_A=False):
+    """A and the root-mean-square misfit of Phi_1, shapes (ell, tau).
+
+    `window` is in units of w, or of 1/A. Gauss-Newton's iteration for ln A, all tubes and times at
+    once.
+    """
+    Phi_inf = pulse.Phi_inf.values[:, np.newaxis, np.newaxis]
+    w = wall_length(pulse)[:, np.newaxis, np.newaxis]
+    ahead = pulse.Z.values - pulse.Z_C.values[:, np.newaxis]
+    faces = pulse.Z_face.values - pulse.Z_C.values[:, np.newaxis]
+    A = 0.8 / w * np.ones((1, pulse.sizes["tau"], 1))
+    for _ in range(60):
+        half = window / A if in_units_of_A else window * w
+        inside = np.diff(np.clip(faces, -half, half), axis=-1)
+        misfit = pulse.Phi1.values - tanh_profile(A * ahead, Phi_inf)
+        slope = -(Phi_inf - 1) / 2 * A * ahead / np.cosh(np.minimum(A * np.abs(ahead), 300.0)) ** 2
+        step = (inside * slope * misfit).sum(axis=-1, keepdims=True) / (inside * slope**2).sum(
+            axis=-1, keepdims=True
+        )
+        A = A * np.exp(np.clip(step, -1.0, 1.0))
+        if np.abs(step).max() < 1e-12:
+            rms = np.sqrt((inside * misfit**2).sum(axis=-1) / inside.sum(axis=-1))
+            return A[..., 0], rms
+    raise RuntimeError(f"the fit of A still moves by {np.abs(step).max():.1e}")
+
+
+class PowerLaw(NamedTuple):
+    """A = prefactor (1-ell)^-exponent."""
+
+    exponent: float
+    exponent_uncertainty: float
+    prefactor: float
+
+    def sharpness(self, ell):
+        """A of a tube."""
+        return self.prefactor * (1 - np.asarray(ell)) ** -self.exponent
+
+    def one_minus_ell(self, A):
+        """1-ell of the tube that has this A."""
+        return (np.asarray(A) / self.prefactor) ** (-1 / self.exponent)
+
+
+def power_law(ell, A, A_uncertainty):
+    """Least squares in logarithms.
+
+    The exponent's uncertainty joins the standard error from the scatter with the largest change
+    that errors of A within `A_uncertainty`, of whatever sign, can make.
+    """
+    x = -np.log(1 - np.asarray(ell))
+    leverage = (x - x.mean()) / ((x - x.mean()) ** 2).sum()
+    y = np.log(A)
+    exponent = leverage @ y
+    intercept = y.mean() - exponent * x.mean()
+    scatter = y - intercept - exponent * x
+    from_scatter = np.sqrt((scatter @ scatter) / (len(x) - 2) * (leverage @ leverage))
+    from_numerics = np.abs(leverage) @ (np.asarray(A_uncertainty) / A)
+    return PowerLaw(
+        float(exponent), float(np.hypot(from_scatter, from_numerics)), float(np.exp(intercept))
+    )
+
+
+def local_exponent(ell, A):
+    """-d ln A / d ln(1-ell), which is n at every ell where a power law holds."""
+    return -np.gradient(np.log(A), np.log(1 - np.asarray(ell)))
+
+
+def around_front(pulse, x):
+    """Phi_1 at Z = Z_C + w x of each tube and time, shape (ell, tau, x).
+
+    Where Z would be negative the tube is continued as what it is, an even function of Z; beyond
+    the last cell Phi_1 = 1. Splines on either side of the front, whose slope jumps there.
+    """
+    x = np.asarray(x, float)
+    hot = pulse.hot.values
+    found = np.ones((pulse.sizes["ell"], pulse.sizes["tau"], len(x)))
+    for i, w in enumerate(wall_length(pulse)):
+        for j, Z_C in enumerate(pulse.Z_C.values):
+            cells, Phi = pulse.Z.values[i, j], pulse.Phi1.values[i, j]
+            front = pulse.Phi1_front.values[i, j]
+            Z = np.abs(Z_C + w * x)
+            behind = CubicSpline(np.r_[-cells[0], cells[hot], Z_C], np.r_[Phi[0], Phi[hot], front])
+            ahead = CubicSpline(np.r_[Z_C, cells[~hot]], np.r_[front, Phi[~hot]])
+            found[i, j] = np.where(Z <= Z_C, behind(Z), np.where(Z < cells[-1], ahead(Z), 1.0))
+    return found

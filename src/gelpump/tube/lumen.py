@@ -1,0 +1,126 @@
+"""Flow in the lumen (section 3.6.2): U = C(Z) R and V = -2 Integral_0^Z C dZ.
+
+Radial velocities are in a_1, axial ones in L per poroelastic time, as in `gelpump.tube.flow`.
+Since F holds 16 D (Phi_0 - Phi_1) Phi_1^{2/3} / (eps^2 (1-ell)^2), all forms are integrals of F.
+
+As printed (eqn:lumen):
+
+    C = -4 Phi_1 D (Phi_0 - Phi_1) / (eps^2 (1-ell)^2) = -F Phi_1^{1/3} / 4
+
+Matched: the interstitial U_g of eqn:ug and eqn:phi2 at the inner edge B_0, over B_0. That is what
+the text above eqn:lumen says:
+
+    C = -4 (1-ell)/ell D (Phi_0 - Phi_1) Phi_1^{-1/3} / (eps^2 (1-ell)^2) = -(1-ell)/ell F/(4 Phi_1)
+
+Continuous: water is conserved. Continuous across the moving edge is q = u_g + u_p, the flux of water
+and polymer together, not u_g alone; and the edge slopes. With W the flow of water into the lumen per
+length, and pi B_0^2 = pi ell^2 Phi_1^{-2/3},
+
+    (pi B_0^2)_tau + (pi B_0^2 V)_Z = W = -2 pi B_0 (U_g - B_0' V_g) at the edge
+                                      = pi (1-ell^2) sigma F Phi_1^{-5/3} + (pi B_0^2)_Z V_g ,
+
+where sigma is `flow.lumen_share` (what the source of the solved equation sheds goes where the
+(R^2, ln R, 1) form takes it). The lumen deforms with the wall: a material slice dX of it has the
+volume pi ell^2 dX/Phi_1, and the wall's own equation is DPhi_1/Dtau = F + Phi_1 V_g,Z, so
+
+    (pi B_0^2)_tau + (pi B_0^2 u_p)_Z = -pi ell^2 Phi_1^{-5/3} DPhi_1/Dtau
+                                      = -pi ell^2 [ F Phi_1^{-5/3} + Phi_1^{-2/3} V_g,Z ]
+
+with u_p the polymer's axial velocity. The difference integrates to
+
+    V = u_p + V_g + Phi_1^{2/3} Integral_0^Z F Phi_1^{-5/3} [ 1 + sigma (1-ell^2)/ell^2 ] dZ .
+
+Continuous, level: the same without (pi B_0^2)_Z V_g in W. The edge is held at Phi_0, so no gradient
+along it drives V_g there; but Phi_1, hence eqn:tube_model, does not know that, and without the term
+less water enters the lumen than the wall sheds. Where Phi_1 is near Phi_0, as the scaling needs, V_g
+is small and the two agree. Then V_g above becomes Phi_1^{2/3} Integral_0^Z Phi_1^{-2/3} dV_g.
+
+The tanh form (eqn:tanh_fit) gives V without its prefactor 8/(eps^2 (1-ell)^2), which is what figure
+12 plots, as Integral_0^Z Phi_1 D (Phi_0 - Phi_1) dZ. With Phi_1 itself as the variable,
+dPhi_1/dZ = -2A (Phi_inf - Phi_1)(Phi_1 - 1)/(Phi_inf - 1), no tail and no small difference is left:
+
+    behind:  (Phi_inf - 1)/(2A) Integral_{Phi_1(Z)}^{Phi_1(0)} Phi D/(Phi - 1) dPhi
+    ahead:   less (Phi_inf - 1)/(2A) Integral_{Phi_1(Z)}^{Phi_1(Z_C)} Phi D/(Phi_inf - Phi) dPhi
+"""
+
+import numpy as np
+
+from gelpump.tube.flow import Wall, lumen_share
+from gelpump.tube.front import tanh_profile
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(40)
+HOT, COLD = 1.0, -1.0  # temperatures theta of either side
+
+
+def velocity_printed(wall: Wall):
+    """V of eqn:lumen on the faces."""
+    return wall.integral(wall.F * np.cbrt(wall.Phi1)) / 2
+
+
+def velocity_matched(wall: Wall):
+    """V with C from U_g at the inner edge, on the faces."""
+    return (1 - wall.ell) / wall.ell * wall.integral(wall.F / wall.Phi1) / 2
+
+
+def velocity_continuous(wall: Wall):
+    """V by conservation of water, on the faces."""
+    return _deforming(wall) + wall.axial_velocity_face
+
+
+def velocity_continuous_level(wall: Wall):
+    """The same without axial flow through the sloping edge."""
+    along = wall.Phi1 ** (-2 / 3) * np.diff(wall.axial_velocity_face) / wall.cell_length
+    return _deforming(wall) + wall.Phi1_face ** (2 / 3) * wall.integral(along)
+
+
+def _deforming(wall):
+    gain = 1 + lumen_share(wall.ell) * (1 - wall.ell**2) / wall.ell**2
+    source = wall.integral(wall.F * wall.Phi1 ** (-5 / 3))
+    return wall.polymer_velocity_face + gain * wall.Phi1_face ** (2 / 3) * source
+
+
+VELOCITIES = {
+    "printed": velocity_printed,
+    "matched": velocity_matched,
+    "continuous": velocity_continuous,
+    "continuous_level": velocity_continuous_level,
+}
+MEANING = {
+    "printed": "as printed in eqn:lumen",
+    "matched": "C from U_g of eqn:ug and eqn:phi2 at the inner edge",
+    "continuous": "water conserved across the moving and sloping edge",
+    "continuous_level": "water conserved across the moving edge, its slope neglected",
+}
+
+
+def radial_rate(wall: Wall, V):
+    """C = -V_Z/2 in the cells, so that U = C R."""
+    return -np.diff(V) / wall.cell_length / 2
+
+
+def prefactor(eps, one_minus_ell):
+    """What eqn:lumen has before its integral, and figure 12 has not."""
+    return 8 / (eps * one_minus_ell) ** 2
+
+
+def velocity_tanh(gel, A, Z, Z_C):
+    """Integral_0^Z Phi_1 D (Phi_0 - Phi_1) dZ of the tanh form; arguments are broadcast."""
+    A, Z, Z_C = np.broadcast_arrays(*(np.asarray(value, float) for value in (A, Z, Z_C)))
+    start = tanh_profile(-A * Z_C, gel.Phi_inf)
+    middle = (1 + gel.Phi_inf) / 2
+    here = tanh_profile(A * (Z - Z_C), gel.Phi_inf)
+    behind = _integral(
+        lambda Phi: Phi * gel.diffusivity(Phi, HOT) / (Phi - 1), np.maximum(here, middle), start
+    )
+    ahead = _integral(
+        lambda Phi: Phi * gel.diffusivity(Phi, COLD) / (gel.Phi_inf - Phi),
+        np.minimum(here, middle),
+        middle,
+    )
+    return (gel.Phi_inf - 1) / (2 * A) * (behind - ahead)
+
+
+def _integral(integrand, low, high):
+    """Gauss-Legendre; the integrands' poles are half the jump away from the ends."""
+    half = (high - low)[..., np.newaxis] / 2
+    return (WEIGHTS * half * integrand(low[..., np.newaxis] + half * (1 + NODES))).sum(axis=-1)

@@ -20,6 +20,7 @@ report: "workflow/report/workflow.rst"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/materials.smk"
 include: "workflow/rules/bead.smk"
+include: "workflow/rules/tube.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/claims.smk"
@@ -29,8 +30,11 @@ rule all:
     input:
         MATERIALS,
         BEADS,
+        TUBES,
         SENSITIVITIES,
         FIGURES,
         TABLES,
         "results/claims.json",
         "results/tables/claims.md",
+        "results/ledger.json",
+        "results/tables/ledger.md",

@@ -3,9 +3,12 @@
 A refusal names the key as a path (``beads.drying.gel``), the value given and what is allowed.
 """
 
+import warnings
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
+
+THICK = 0.5  # a slenderness that is of order one
 
 
 class ConfigError(ValueError):
@@ -81,6 +84,7 @@ def _physical_problems(config) -> Iterator[str]:
         yield f"materials.temperatures = {temperatures}: must increase"
     for case, block in config["beads"].items():
         yield from _bead_problems(f"beads.{case}", block, gels, config["gels"])
+    yield from _tube_problems(config)
     yield from _choice_problems(config)
 
 
@@ -111,6 +115,53 @@ def _bead_problems(key, block, gels, blocks) -> Iterator[str]:
         late = [t for t in block[times] if t > block["end"]]
         if late:
             yield f"{key}.{times} = {late}: must not lie after {key}.end = {block['end']}"
+
+
+def _tube_problems(config) -> Iterator[str]:
+    linear = sorted(n for n, b in config["gels"].items() if b["model"] == "piecewise-linear")
+    tube, pulse = config["tube"], config["tube_pulse"]
+    refined = config["numerics"]["refine_tube_pulse"]
+    if tube["gel"] not in linear:
+        yield f"tube.gel = {tube['gel']!r}: must be one of the piecewise-linear gels {linear}"
+    elif not config["gels"][tube["gel"]]["Phi_inf"] > 1:
+        Phi_inf = config["gels"][tube["gel"]]["Phi_inf"]
+        yield f"gels.{tube['gel']}.Phi_inf = {Phi_inf}: must be greater than 1 in a tube"
+    if tube["eps"] >= THICK:
+        message = f"tube.eps = {tube['eps']} is of order one: the slender tube needs eps^2 << 1"
+        warnings.warn(message, stacklevel=2)
+    increasing = {
+        "deswelling_map.M": config["deswelling_map"]["M"],
+        "deswelling_map.Pi_ratio": config["deswelling_map"]["Pi_ratio"],
+        "deswelling_map.compared_ell": config["deswelling_map"]["compared_ell"],
+        "deswelling_map.Phi_inf": config["deswelling_map"]["Phi_inf"],
+        "deswelling_curves.ell": config["deswelling_curves"]["ell"],
+        "tube_pulse.ell": pulse["ell"],
+        "tube_pulse.law_range": pulse["law_range"],
+        "tube_pulse.tau": pulse["tau"],
+        "tube_pulse.tau_range": pulse["tau_range"],
+        "front_fit.windows": config["front_fit"]["windows"],
+        "lumen_pulse.tau": config["lumen_pulse"]["tau"],
+        "lumen_pulse.A": config["lumen_pulse"]["A"],
+        "lumen_pulse.Z": config["lumen_pulse"]["Z"],
+        "numerics.refine_tube_pulse.ell": refined["ell"],
+        "numerics.refine_tube_pulse.tau": refined["tau"],
+    }
+    chosen = {
+        "numerics.refine_tube_pulse": refined,
+        "front_fit": config["front_fit"],
+        "lumen_pulse": config["lumen_pulse"],
+        **{f"tube_flow.{name}": view for name, view in config["tube_flow"].items()},
+    }
+    for key, values in increasing.items():
+        if any(b <= a for a, b in pairwise(values)):
+            yield f"{key} = {values}: must increase"
+    solved = {"ell": pulse["ell"], "tau": sorted({*pulse["tau"], *pulse["tau_range"]})}
+    for name, block in chosen.items():
+        for key, allowed in solved.items():
+            value = block.get(key, [])
+            for each in value if isinstance(value, list) else [value]:
+                if each not in allowed:
+                    yield f"{name}.{key} = {each}: must be one of tube_pulse's, {allowed}"
 
 
 def _choice_problems(config) -> Iterator[str]:

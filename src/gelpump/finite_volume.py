@@ -9,9 +9,9 @@ coefficients.  What is solved is a Newton correction delta of
 
 with K the conductance of each face (area / distance * diffusivity, zero at seams), c the local
 derivative of the residual and G the residual itself, integrated over the cells.  Where cells drift
-through the material, div(u delta) is added, u being the drift of each face (zero at seams).  K and u
-together hold any tridiagonal Jacobian exactly: a flux a delta_right - b delta_left has
-K = (a + b)/2 and u = a - b, since FiPy's central convection takes the plain mean of two unit cells.
+through the material, div(u delta) is added, u being the drift of each face (zero at seams).  K and
+u together hold any tridiagonal Jacobian exactly: a flux a delta_right - b delta_left has
+K = (a + b)/2 and u = a - b, since FiPy's central convection takes the plain mean of two cells.
 
 Two of FiPy 4.0.3's defaults would change answers silently, and are avoided here: its default solver
 skips a solve whose right-hand side looks small, so a direct one is named; and an unrelated

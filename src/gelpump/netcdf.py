@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -65,3 +65,8 @@ def read(path: str | Path) -> "xr.Dataset":
     import xarray as xr
 
     return xr.load_dataset(path, engine="netcdf4")
+
+
+def read_all(paths: Iterable[str | Path], folder: str | Path) -> dict[str, "xr.Dataset"]:
+    """The datasets of ``paths`` by their path below ``folder``, without its suffix."""
+    return {Path(path).relative_to(folder).with_suffix("").as_posix(): read(path) for path in paths}

@@ -69,7 +69,7 @@ def test_defaults_agree_with_an_independent_solution(solution, reference):
 def test_second_order_in_space_even_at_the_front(solution, reference):
     late = slice(2, None)  # where the error of the time steps is negligible
     coarse, fine = (
-        errors(solve(FAMILY, HEAT, TAU, cells=cells), reference)[:, late]
+        errors(solve(FAMILY, HEAT, TAU, cells=cells, tolerance=6e-5), reference)[:, late]
         for cells in ((32, 20), (128, 80))
     )
     middle = errors(solution, reference)[:, late]
@@ -86,9 +86,9 @@ def test_orders_in_time():
         tube = solve(Tubes(0.5), HEAT, tau, cells=(24, 16), tolerance=tolerance, order=order)
         return np.stack([tube.Phi1_front, tube.Phi1.isel(cell=0)]), tube.attrs["steps"]
 
-    exact, _ = run(1e-6, order=3)
-    for order, bound in ((2, 2.5e-4), (3, 4e-4)):
-        (coarse, few), (fine, many) = run(3e-4, order), run(1e-5, order)
+    exact, _ = run(3e-6, order=3)
+    for order, bound in ((2, 6e-4), (3, 1e-3)):
+        (coarse, few), (fine, many) = run(1e-3, order), run(5e-5, order)
         error = np.abs(coarse - exact).max(), np.abs(fine - exact).max()
         assert np.log(error[0] / error[1]) / np.log(many / few) > order - 0.3
         assert error[1] < bound
@@ -136,7 +136,7 @@ def test_the_printed_equation_holds():
 
 def test_end_of_the_domain_is_harmless():
     """Twice the domain with the same cells near the front changes nothing that counts."""
-    tau = [1e-4, 1e-3, 1e-2]
+    tau = [1e-4, 1e-3]
     near, far = (
         solve(Tubes(0.3), HEAT, tau, cells=(64, ahead), tolerance=1e-4, reach=reach).isel(ell=0)
         for ahead, reach in ((80, 12.0), (160, 24.0))
@@ -154,8 +154,8 @@ def test_tubes_collapse_on_one_another(solution):
 
 
 def test_a_member_does_not_feel_the_family(solution):
-    alone = solve(Tubes(0.5), HEAT, TAU).isel(ell=0)
-    together = solution.isel(ell=1)
+    alone = solve(Tubes(0.5), HEAT, TAU[:3]).isel(ell=0)
+    together = solution.isel(ell=1, tau=slice(3))
     assert np.abs(alone.Phi1_front - together.Phi1_front).max() < 3e-4
 
 
@@ -173,7 +173,7 @@ def test_thin_wall_limit():
     hot = Pi_ratio / Phi_inf, Phi_inf
     at_front = brentq(lambda y: work(y, *hot) - work(y, 1.0, 1.0), Phi_inf ** (-1 / 3) + 1e-9, 1)
     tube = solve(
-        Tubes(0.9995, 0.1, M, Pi_ratio, Phi_inf), HEAT, [0.1], cells=(128, 80), tolerance=1e-4
+        Tubes(0.9995, 0.1, M, Pi_ratio, Phi_inf), HEAT, [0.01], cells=(128, 80), tolerance=3e-4
     )
     assert np.isclose(tube.Phi1_front.item(), at_front**-3, atol=1e-3)
     w = 0.1 * 0.0005 / 4
@@ -184,7 +184,7 @@ def test_thin_wall_limit():
 def test_fast_heat_leaves_the_end_to_uniform_deswelling():
     """The start from tau = 0 is right: Phi_1 - 1 is tau times a function of Z/sqrt(tau)."""
     tau, tubes = np.array([1e-5, 1e-4, 3e-4]), Tubes([0.1, 0.6])
-    tube = solve(tubes, StepHeating(Le=1e4), tau, cells=(256, 40))
+    tube = solve(tubes, StepHeating(Le=1e4), tau, cells=(256, 40), tolerance=1e-4)
     end = tube.Phi1.isel(cell=0).values.T
     assert np.allclose(end, deswelling_curve(tau[:, np.newaxis], tubes), atol=1e-3)
 

@@ -161,6 +161,7 @@ def test_a_failed_job_tells_why_and_leaves_no_figure(built, tmp_path):
     drawn = figure.read_bytes()
     try:
         broken.write_bytes(kept.read_bytes()[:2000])
+        result = built.snakemake("fig14_equilibrium", "--force")
         assert result.returncode != 0
         assert not figure.exists()
         assert "Traceback" in (built.path / "results/logs/fig14_equilibrium.log").read_text()

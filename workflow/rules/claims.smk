@@ -1,20 +1,37 @@
-# What the paper states, checked against what was computed.
+# What the paper states, checked against what was computed, and where it disagrees with itself.
 
 CLAIM_GELS = ["ANB", "HHT"]
 CLAIM_BEADS = ["swelling", "drying", "separating"]
+EVIDENCE = (
+    expand(
+        [
+            f"{DATA}/bead_{{case}}_{{model}}.nc",
+            f"{DATA}/refinement/bead_{{case}}_{{model}}.nc",
+        ],
+        case=CLAIM_BEADS,
+        model=["lens", "nonlinear"],
+    )
+    + expand(f"{DATA}/materials_{{gel}}.nc", gel=CLAIM_GELS)
+    + expand(
+        f"{DATA}/{{dataset}}.nc",
+        dataset=[
+            "deswelling_map",
+            "deswelling_curves",
+            "tube_pulse",
+            "refinement/tube_pulse",
+            "front_fit",
+            "water_budget",
+            "lumen_pulse",
+        ],
+    )
+)
+CLAIMED_GELS = {name: config["gels"][name] for name in CLAIM_GELS if name in config["gels"]}
+CLAIMED_BEADS = {name: config["beads"][name] for name in CLAIM_BEADS if name in config["beads"]}
 
 
 rule claims:
     input:
-        data=expand(
-            [
-                f"{DATA}/bead_{{case}}_{{model}}.nc",
-                f"{DATA}/refinement/bead_{{case}}_{{model}}.nc",
-            ],
-            case=CLAIM_BEADS,
-            model=["lens", "nonlinear"],
-        )
-        + expand(f"{DATA}/materials_{{gel}}.nc", gel=CLAIM_GELS),
+        data=EVIDENCE,
         src=modules(
             "netcdf",
             "text",
@@ -26,13 +43,14 @@ rule claims:
             "claims/table",
             "claims/materials",
             "claims/beads",
+            "claims/tubes",
         ),
     output:
         json="results/claims.json",
         md=report(
             "results/tables/claims.md",
             caption="../report/claims.rst",
-            category="Claims",
+            category="Verdicts",
         ),
     log:
         "results/logs/claims.log",
@@ -40,7 +58,43 @@ rule claims:
         "results/benchmarks/claims.tsv"
     params:
         published=config["published"],
-        gels={name: config["gels"][name] for name in CLAIM_GELS if name in config["gels"]},
-        cases={name: config["beads"][name] for name in CLAIM_BEADS if name in config["beads"]},
+        gels=CLAIMED_GELS,
+        cases=CLAIMED_BEADS,
+        scales=config["scales"],
     script:
         "../scripts/claims.py"
+
+
+rule ledger:
+    input:
+        data=EVIDENCE + [f"{DATA}/sensitivity_drying.nc", f"{DATA}/tube_flow_whole.nc"],
+        src=modules(
+            "netcdf",
+            "text",
+            *GEL,
+            "ledger/__init__",
+            "ledger/entry",
+            "ledger/table",
+            "ledger/materials",
+            "ledger/beads",
+            "ledger/tubes",
+        ),
+    output:
+        json="results/ledger.json",
+        md=report(
+            "results/tables/ledger.md",
+            caption="../report/ledger.rst",
+            category="Verdicts",
+        ),
+    log:
+        "results/logs/ledger.log",
+    benchmark:
+        "results/benchmarks/ledger.tsv"
+    params:
+        published=config["published"],
+        gels=CLAIMED_GELS,
+        cases=CLAIMED_BEADS,
+        tube={**config["tube"], "M": config["gels"][config["tube"]["gel"]]["M"]},
+        scales=config["scales"],
+    script:
+        "../scripts/ledger.py"

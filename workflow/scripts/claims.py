@@ -4,18 +4,19 @@ from _helpers import job
 
 with job(snakemake):
     from gelpump import netcdf
-    from gelpump.claims import beads, materials, table
+    from gelpump.claims import beads, materials, table, tubes
     from gelpump.claims.verdict import judged
     from gelpump.materials import from_config
     from gelpump.text import write_json, write_text
 
     params = snakemake.params
-    data = {
-        path.removeprefix("results/data/").removesuffix(".nc"): netcdf.read(path)
-        for path in snakemake.input.data
-    }
+    data = netcdf.read_all(snakemake.input.data, "results/data")
     gels = {name: from_config(name, block) for name, block in params.gels.items()}
-    findings = [*materials.findings(data, gels), *beads.findings(data, params.cases)]
+    findings = [
+        *materials.findings(data, gels),
+        *beads.findings(data, params.cases),
+        *tubes.findings(data, params.scales),
+    ]
     claims = [judged(finding, params.published.get(finding.id)) for finding in findings]
     write_json(claims, snakemake.output.json)
     write_text(table.markdown(claims), snakemake.output.md)

@@ -212,7 +212,7 @@ def solve(
         events[0] = bead.margin(r)
 
     start = bead.R[1:] * phi_initial ** (-1 / 3)
-    t, r, loss = [0.0], [start], None
+    t, r, loss, evaluations = [0.0], [start], None, 0
     if bead.margin(start) <= 0:
         loss = bead.loss(0.0, start)
     else:
@@ -235,6 +235,7 @@ def solve(
                 raise RuntimeError(f"CVODE at t = {step.t}: {step.message}")
             t.append(float(step.t))
             r.append(np.array(step.y))
+            evaluations = int(step.nfev)
             if step.t < time:
                 loss = bead.loss(float(step.t), r[-1])
                 break
@@ -250,4 +251,5 @@ def solve(
         loss,
         gel=gel.name,
         temperature=temperature,
+        evaluations=evaluations,
     )

@@ -19,6 +19,7 @@ def findings(data: Mapping, cases: Mapping) -> Iterator[Finding]:
     yield _slower(data)
     yield from _drying_course(data)
     yield from _spinodal(data)
+    yield _cost(data)
 
 
 def _bead(data, case, model):
@@ -152,4 +153,19 @@ def _spinodal(data) -> Iterator[Finding]:
         "data/bead_separating_lens.nc: stopped_t",
         measure=float(refined.stop_time[0]) if stopped else None,
         measured="at t_BMJ =",
+    )
+
+
+def _cost(data) -> Finding:
+    lens, nonlinear = (data[f"bead_drying_{model}"].attrs for model in ("lens", "nonlinear"))
+    return Finding(
+        "lens-cheaper",
+        "sections 1 and 4",
+        "LENS predicts faster than the nonlinear model (drying: sweeps of FiPy against "
+        "evaluations of the rate by CVODE)",
+        None,
+        None,
+        "data/bead_drying_{lens,nonlinear}.nc: sweeps, evaluations",
+        measure=[float(lens["sweeps"]), float(nonlinear["evaluations"])],
+        measured="tridiagonal solves of LENS, rate evaluations of the nonlinear model:",
     )

@@ -27,8 +27,8 @@ Interstitial velocity (eqn:ug), relative to the polymer:
 
 The section on the lumen prints U_g again, without the factor 1/Phi_1.
 
-Of the water that a radial source sheds, a share goes to the lumen: with equal Phi_2 on both edges it
-is [(1-ell^2)/ln(1/ell) - 2 ell^2] / [2 (1-ell^2)], whatever the amplitude.
+Of the water that a radial source sheds, a share goes to the lumen: with equal Phi_2 on both edges
+it is [(1-ell^2)/ln(1/ell) - 2 ell^2] / [2 (1-ell^2)], whatever the amplitude.
 
 If kappa replaces 16, only w = eps (1-ell)/4 changes, to w sqrt(16/kappa).
 """

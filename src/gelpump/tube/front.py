@@ -96,21 +96,34 @@ def local_exponent(ell, A):
     return -np.gradient(np.log(A), np.log(1 - np.asarray(ell)))
 
 
-def around_front(pulse, x):
-    """Phi_1 at Z = Z_C + w x of each tube and time, shape (ell, tau, x).
+def profile(tube):
+    """Phi_1 as a function of Z - Z_C, of one tube at one time.
 
-    Where Z would be negative the tube is continued as what it is, an even function of Z; beyond
-    the last cell Phi_1 = 1. Splines on either side of the front, whose slope jumps there.
+    Splines on either side of the front, where the slope jumps. Phi_1 is an even function of Z, and
+    one beyond the last cell.
     """
-    x = np.asarray(x, float)
-    hot = pulse.hot.values
-    found = np.ones((pulse.sizes["ell"], pulse.sizes["tau"], len(x)))
-    for i, w in enumerate(wall_length(pulse)):
-        for j, Z_C in enumerate(pulse.Z_C.values):
-            cells, Phi = pulse.Z.values[i, j], pulse.Phi1.values[i, j]
-            front = pulse.Phi1_front.values[i, j]
-            Z = np.abs(Z_C + w * x)
-            behind = CubicSpline(np.r_[-cells[0], cells[hot], Z_C], np.r_[Phi[0], Phi[hot], front])
-            ahead = CubicSpline(np.r_[Z_C, cells[~hot]], np.r_[front, Phi[~hot]])
-            found[i, j] = np.where(Z <= Z_C, behind(Z), np.where(Z < cells[-1], ahead(Z), 1.0))
+    hot, Z_C, front = tube.hot.values, float(tube.Z_C), float(tube.Phi1_front)
+    Z, Phi = tube.Z.values - Z_C, tube.Phi1.values
+    mirrored = -2 * Z_C - Z[0]
+    behind = CubicSpline(np.r_[mirrored, Z[hot], 0.0], np.r_[Phi[0], Phi[hot], front])
+    ahead = CubicSpline(np.r_[0.0, Z[~hot]], np.r_[front, Phi[~hot]])
+
+    def Phi1(distance):
+        on_mesh = np.where(distance <= 0, behind(distance), ahead(distance))
+        return np.where(distance > Z[-1], 1.0, on_mesh)
+
+    return Phi1
+
+
+def largest_difference(pulse, other):
+    """Largest difference of Phi_1 at the same Z - Z_C, in the cells of `pulse`, dims (ell, tau).
+
+    `other` has the same tubes, at the same times or at one time only.
+    """
+    distance = pulse.Z.values - pulse.Z_C.values[:, np.newaxis]
+    found = np.empty(distance.shape[:2])
+    for i, j in np.ndindex(*found.shape):
+        if j < other.sizes["tau"]:
+            there = profile(other.isel(ell=i, tau=j))
+        found[i, j] = np.abs(pulse.Phi1.values[i, j] - there(distance[i, j])).max()
     return found

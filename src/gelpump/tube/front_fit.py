@@ -10,7 +10,7 @@ from gelpump.tube import scaling
 from gelpump.tube.flow import PRINTED_SOURCE_COEFFICIENT, source_coefficient
 from gelpump.tube.front import (
     WINDOW,
-    around_front,
+    largest_difference,
     local_exponent,
     power_law,
     sharpness,
@@ -20,11 +20,11 @@ from gelpump.tube.front import (
 SHARPNESS = "in units of 1/L"
 
 
-def front_fit(pulse, refinement, settings: Mapping, law_ell) -> xr.Dataset:
+def front_fit(pulse, refinement, settings: Mapping) -> xr.Dataset:
     """Fits of all tubes at all times; A, the misfit and the power law at the time of figure 9."""
     ell, tau = pulse.ell.values, pulse.tau.values
     now = int(np.abs(tau - settings["tau"]).argmin())
-    in_law = np.isclose(ell[:, np.newaxis], law_ell, rtol=0, atol=1e-9).any(axis=1)
+    in_law = pulse.in_power_law.values
     A, rms = sharpness(pulse)
     error = A * relative_error(refinement, pulse)
     laws = [power_law(ell[in_law], *(a[in_law, j] for a in (A, error))) for j in range(len(tau))]
@@ -44,7 +44,7 @@ def front_fit(pulse, refinement, settings: Mapping, law_ell) -> xr.Dataset:
             (), laws[now].exponent_uncertainty, "uncertainty of n, by scatter and numerical error"
         ),
         "prefactor": variable((), laws[now].prefactor, "c of the power law A = c (1-ell)^-n"),
-        "in_power_law": variable("ell", in_law, "whether the power law is fitted to this tube"),
+        "in_power_law": pulse.in_power_law,
         "local_exponent": variable(
             "ell", local_exponent(ell, A[:, now]), "-d ln A/d ln(1-ell) between neighbouring tubes"
         ),
@@ -86,8 +86,8 @@ def front_fit(pulse, refinement, settings: Mapping, law_ell) -> xr.Dataset:
         ),
         "profile_change": variable(
             ("ell", "tau"),
-            profile_change(pulse),
-            "largest difference of Phi1 from the last time at the same Z - Z_C >= -Z_C",
+            largest_difference(pulse, pulse.isel(tau=[-1])),
+            "largest difference of Phi1 from the last time at the same Z - Z_C",
             scaling.POLYMER,
         ),
         "departure_front": variable(
@@ -143,12 +143,3 @@ def consistent_sharpness(ell, tau, A, now):
         for x, each in zip(share, A, strict=True)
     ]
     return np.sqrt(share) * earlier
-
-
-def profile_change(pulse):
-    """How far from a travelling wave: |Phi_1(Z - Z_C) - that of the last time|, largest."""
-    x = np.linspace(-WINDOW, WINDOW, 161)
-    profile = around_front(pulse, x)
-    start = -pulse.Z_C.values / wall_length(pulse)[:, np.newaxis]
-    on_tube = x >= start[..., np.newaxis]
-    return np.where(on_tube, np.abs(profile - profile[:, -1:]), 0.0).max(axis=-1)

@@ -12,9 +12,9 @@ the text above eqn:lumen says:
 
     C = -4 (1-ell)/ell D (Phi_0 - Phi_1) Phi_1^{-1/3} / (eps^2 (1-ell)^2) = -(1-ell)/ell F/(4 Phi_1)
 
-Continuous: water is conserved. Continuous across the moving edge is q = u_g + u_p, the flux of water
-and polymer together, not u_g alone; and the edge slopes. With W the flow of water into the lumen per
-length, and pi B_0^2 = pi ell^2 Phi_1^{-2/3},
+Continuous: water is conserved. Continuous across the moving edge is q = u_g + u_p, the flux of
+water and polymer together, not u_g alone; and the edge slopes. With W the flow of water into the
+lumen per length, and pi B_0^2 = pi ell^2 Phi_1^{-2/3},
 
     (pi B_0^2)_tau + (pi B_0^2 V)_Z = W = -2 pi B_0 (U_g - B_0' V_g) at the edge
                                       = pi (1-ell^2) sigma F Phi_1^{-5/3} + (pi B_0^2)_Z V_g ,
@@ -32,8 +32,8 @@ with u_p the polymer's axial velocity. The difference integrates to
 
 Continuous, level: the same without (pi B_0^2)_Z V_g in W. The edge is held at Phi_0, so no gradient
 along it drives V_g there; but Phi_1, hence eqn:tube_model, does not know that, and without the term
-less water enters the lumen than the wall sheds. Where Phi_1 is near Phi_0, as the scaling needs, V_g
-is small and the two agree. Then V_g above becomes Phi_1^{2/3} Integral_0^Z Phi_1^{-2/3} dV_g.
+what crosses the edges is not what the wall sheds. Where Phi_1 is near Phi_0, as the scaling needs,
+V_g is small and the two agree. V_g above becomes Phi_1^{2/3} Integral_0^Z Phi_1^{-2/3} dV_g.
 
 The tanh form (eqn:tanh_fit) gives V without its prefactor 8/(eps^2 (1-ell)^2), which is what figure
 12 plots, as Integral_0^Z Phi_1 D (Phi_0 - Phi_1) dZ. With Phi_1 itself as the variable,

@@ -9,24 +9,24 @@ from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
 from gelpump.tube.deswelling import Tubes
 from gelpump.tube.flow import Wall
-from gelpump.tube.front import WINDOW, around_front, sharpness
+from gelpump.tube.front import largest_difference, sharpness
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
 from gelpump.uncertainty import convergence_index
 
 TOLERANCE_FACTOR = 4.0
 REACH_FACTOR = 2
-COMMON_GRID = np.linspace(-WINDOW, WINDOW, 321)  # Z - Z_C in units of w
 
 
-def family_ell(settings: Mapping) -> np.ndarray:
-    """The tubes that figures name, and those of the power law, spaced evenly in ln(1-ell)."""
-    return np.unique(np.concatenate([settings["ell"], law_ell(settings["law"])]))
+def family_ell(settings: Mapping) -> tuple[np.ndarray, np.ndarray]:
+    """The tubes that figures name and those of the power law, evenly spaced in ln(1-ell); and
+    whether each belongs to the latter.
 
-
-def law_ell(law: Mapping) -> np.ndarray:
-    """ell of the power law, rounded so that no two of the family differ by rounding alone."""
-    return np.round(1 - np.geomspace(*law["one_minus_ell"], law["tubes"]), 12)
+    Rounded, so that no two tubes of the family differ by rounding alone.
+    """
+    law = np.round(1 - np.geomspace(*settings["law_range"], settings["law_count"]), 12)
+    ell = np.unique(np.concatenate([settings["ell"], law]))
+    return ell, np.isin(ell, law)
 
 
 def family_tau(settings: Mapping) -> np.ndarray:
@@ -34,6 +34,14 @@ def family_tau(settings: Mapping) -> np.ndarray:
     first, last = settings["tau_range"]
     return np.unique(
         np.concatenate([settings["tau"], np.geomspace(first, last, settings["tau_count"])])
+    )
+
+
+def family(gel, tube: Mapping, settings: Mapping, numerics: Mapping) -> xr.Dataset:
+    """All tubes at all times."""
+    ell, in_law = family_ell(settings)
+    return pulse(gel, tube, ell, family_tau(settings), numerics).assign(
+        in_power_law=variable("ell", in_law, "whether the power law is fitted to this tube")
     )
 
 
@@ -49,23 +57,26 @@ def pulse(gel, tube: Mapping, ell, tau, numerics: Mapping) -> xr.Dataset:
     ).assign(Le=variable((), float(tube["Le"]), "Lewis number, kappa/D"))
 
 
-def refinement(gel, tube: Mapping, numerics: Mapping, production: xr.Dataset) -> xr.Dataset:
-    """Some tubes of `production` on other meshes, with looser time steps, on a longer domain.
+def refinement(
+    gel, tube: Mapping, numerics: Mapping, subset: Mapping, production: xr.Dataset
+) -> xr.Dataset:
+    """Some tubes of `production` with looser time steps, and those on other meshes and domains.
 
-    Dims (level, ell, tau), level 0 being production. Time steps are compared with looser ones only,
-    since these cost less: the uncertainty is that of tolerances four times production's.
+    Dims (level, ell, tau), level 0 being production. Looser steps cost less, and the errors of
+    space and time hardly depend on each other: meshes are compared at four times production's
+    tolerance, and the uncertainty of time is that of this tolerance.
     """
-    ell, tau = numerics["refined_ell"], numerics["refined_tau"]
+    ell, tau = subset["ell"], subset["tau"]
     behind, ahead = numerics["cells"]
-    changes = [
-        {},
-        {"cells": [behind // 2, ahead // 2]},
-        {"cells": [2 * behind, 2 * ahead]},
-        {"tolerance": TOLERANCE_FACTOR * numerics["tolerance"]},
-        {"tolerance": TOLERANCE_FACTOR**2 * numerics["tolerance"]},
-        {"cells": [behind, REACH_FACTOR * ahead], "reach": REACH_FACTOR * numerics["reach"]},
+    loose = {**numerics, "tolerance": TOLERANCE_FACTOR * numerics["tolerance"]}
+    levels = [
+        numerics,
+        loose,
+        {**numerics, "tolerance": TOLERANCE_FACTOR**2 * numerics["tolerance"]},
+        {**loose, "cells": [behind // 2, ahead // 2]},
+        {**loose, "cells": [2 * behind, 2 * ahead]},
+        {**loose, "cells": [behind, REACH_FACTOR * ahead], "reach": REACH_FACTOR * loose["reach"]},
     ]
-    levels = [{**numerics, **change} for change in changes]
     here = production.sel(ell=ell, tau=tau, method="nearest")
     runs = [here, *(pulse(gel, tube, ell, tau, level) for level in levels[1:])]
     return compared(levels, runs)
@@ -76,21 +87,20 @@ def compared(levels: list[Mapping], runs: list[xr.Dataset]) -> xr.Dataset:
     data = {}
     for name, (long_name, comment, measure) in MEASURED.items():
         values = np.array([measure(run) for run in runs])
-        base, coarse, fine, loose, loosest, far = values
+        base, loose, loosest, coarse, fine, far = values
         uncertainty = (
-            convergence_index(coarse, base, fine)
+            convergence_index(coarse, loose, fine)
             + convergence_index(loosest, loose, base)
-            + np.abs(far - base)
+            + np.abs(far - loose)
         )
         data[name] = variable(("level", "ell", "tau"), values, long_name, comment)
         data[f"{name}_uncertainty"] = variable(
             ("ell", "tau"), uncertainty, f"numerical uncertainty: {long_name}", comment
         )
-    profiles = [around_front(run, COMMON_GRID) for run in runs]
     data["Phi1_difference"] = variable(
         ("level", "ell", "tau"),
-        np.array([np.abs(profile - profiles[0]).max(axis=-1) for profile in profiles]),
-        f"largest difference of Phi1 from production at the same Z, up to {WINDOW:g} w from Z_C",
+        np.array([largest_difference(run, runs[0]) for run in runs]),
+        "largest difference of Phi1 from production at the same Z",
         scaling.POLYMER,
     )
     columns = {

@@ -1,0 +1,94 @@
+"""Flow in the lumen: the published values, brute force, and conservation of water."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from gelpump.materials import PiecewiseLinearGel
+from gelpump.tube import lumen
+from gelpump.tube.budget import water_budget
+from gelpump.tube.deswelling import Tubes
+from gelpump.tube.flow import Wall
+from gelpump.tube.front import tanh_profile
+from gelpump.tube.heat import StepHeating
+from gelpump.tube.slender import solve
+
+TABLE_1 = PiecewiseLinearGel(Phi_inf=2.0, Pi_ratio=1.0, M=1.0)
+Z_C = float(StepHeating().front(0.1))
+
+
+def test_published_height_and_far_value():
+    peak, far = lumen.velocity_tanh(TABLE_1, 100.0, [Z_C, 9.0], Z_C)
+    assert np.isclose(peak, 0.01472, atol=5e-6)
+    assert np.isclose(far, 0.00255, atol=5e-6)
+
+
+def test_height_times_sharpness_is_constant():
+    A = np.geomspace(10, 500, 9)
+    np.testing.assert_allclose(A * lumen.velocity_tanh(TABLE_1, A, Z_C, Z_C), 1.472, rtol=1e-3)
+
+
+@pytest.mark.parametrize("gel", [TABLE_1, PiecewiseLinearGel(5.0, 3.0, 0.1)])
+@pytest.mark.parametrize("Z", [0.01, 0.05, 0.0999, 0.13, 0.5])
+def test_against_brute_force(gel, Z):
+    A, front = 30.0, 0.1
+
+    def integrand(u):
+        Phi, theta = tanh_profile(A * (u - front), gel.Phi_inf), 1.0 if u < front else -1.0
+        drive = gel.equilibrium_polymer_fraction(theta) - Phi
+        return Phi * gel.diffusivity(Phi, theta) * drive
+
+    expected = quad(integrand, 0, min(Z, front), epsabs=1e-13)[0]
+    expected += quad(integrand, front, max(Z, front), epsabs=1e-13, limit=200)[0]
+    found = lumen.velocity_tanh(gel, A, Z, front)
+    assert np.isclose(found, expected, rtol=1e-9, atol=1e-12)
+
+
+@pytest.fixture(scope="module")
+def pulse():
+    tau = 5e-3 * np.array([1 - 1e-3, 1, 1 + 1e-3])
+    return solve(Tubes([0.2, 0.6]), StepHeating(), tau, cells=(128, 80), tolerance=1e-4)
+
+
+def test_printed_and_matched_are_the_written_out_integrals(pulse):
+    tube = pulse.isel(ell=0, tau=1)
+    Phi, hot = tube.Phi1.values, tube.hot.values
+    D = np.where(hot, 0.5, 1.0) * Phi + 4 / 3 * np.cbrt(Phi)
+    common = 8 / (0.1 * 0.8) ** 2 * D * (np.where(hot, 2.0, 1.0) - Phi) * np.diff(tube.Z_face)
+    wall = Wall.of(tube)
+    np.testing.assert_allclose(lumen.velocity_printed(wall)[1:], np.cumsum(Phi * common), rtol=1e-9)
+    matched = 0.8 / 0.2 * np.cumsum(common / np.cbrt(Phi))
+    np.testing.assert_allclose(lumen.velocity_matched(wall)[1:], matched, rtol=1e-9)
+
+
+def test_matched_velocity_meets_the_wall(pulse):
+    wall = Wall.of(pulse)
+    U = lumen.radial_rate(wall, lumen.velocity_matched(wall)) * wall.ell * wall.Phi1 ** (-1 / 3)
+    for i, ell in enumerate(pulse.ell.values):
+        edge = wall.radial_velocity_printed(np.array([ell]))[i, ..., 0]
+        np.testing.assert_allclose(U[i], edge, rtol=1e-8, atol=1e-8 * np.abs(edge).max())
+
+
+def test_lumen_conserves_water(pulse):
+    """(pi B_0^2)_tau at fixed Z, differenced, against what flows in through wall and ends."""
+    wall, budget = Wall.of(pulse), water_budget(pulse)
+    ell, tau = pulse.ell.values, pulse.tau.values
+    area = (np.pi * wall.ell**2 * (wall.Phi1 ** (-2 / 3) - 1) * wall.cell_length).sum(axis=-1)
+    filling = (area[:, 2] - area[:, 0]) / (tau[2] - tau[0])
+    inflow = budget.lumen_rate_continuous.sum("side").values[:, 1]
+    outflow = np.pi * ell**2 * lumen.velocity_continuous(wall)[:, 1, -1]
+    scale = np.abs(budget.lumen_rate_continuous.values[:, 1]).max(axis=-1)
+    assert (np.abs(filling + outflow - inflow) / scale < 2e-3).all()
+
+
+def test_level_and_sloping_edge_differ_by_the_flow_through_the_slope(pulse):
+    wall, budget = Wall.of(pulse), water_budget(pulse)
+    difference = lumen.velocity_continuous(wall) - lumen.velocity_continuous_level(wall)
+    far = np.pi * wall.ell[..., 0] ** 2 * difference[..., -1]
+    slope = budget.lumen_rate_continuous_slope.sum("side").values
+    np.testing.assert_allclose(far, slope, rtol=1e-5)  # Phi_1 - 1 in the last cell
+
+
+def test_velocity_is_highest_at_the_front(pulse):
+    wall, front = Wall.of(pulse), int(pulse.hot.sum())
+    assert (lumen.velocity_printed(wall).argmax(axis=-1) == front).all()

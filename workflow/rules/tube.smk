@@ -1,0 +1,175 @@
+# Tubes that deswell uniformly (section 3.4) or behind a pulse of heat (sections 3.5 and 3.6).
+
+TUBES = expand(
+    f"{DATA}/{{dataset}}.nc",
+    dataset=[
+        "deswelling_map",
+        "deswelling_curves",
+        "tube_pulse",
+        "refinement/tube_pulse",
+        "front_fit",
+        "water_budget",
+        "lumen_pulse",
+        *(f"tube_flow_{view}" for view in config["tube_flow"]),
+    ],
+)
+TUBE = ["netcdf", "tube/__init__", "tube/scaling"]
+UNIFORM_TUBE = [*GEL, *TUBE, "tube/deswelling", "tube/uniform"]
+WALL = [*TUBE, "tube/flow", "tube/front"]
+PULSE = [
+    *GEL,
+    *WALL,
+    "bdf",
+    "finite_volume",
+    "uncertainty",
+    "tube/deswelling",
+    "tube/heat",
+    "tube/lumen",
+    "tube/slender",
+    "tube/production",
+]
+
+
+wildcard_constraints:
+    view="[a-z][a-z_]*",
+
+
+def tube_gel(wildcards):
+    return config["gels"][config["tube"]["gel"]]
+
+
+rule deswelling_map:
+    input:
+        src=modules(*UNIFORM_TUBE),
+    output:
+        f"{DATA}/deswelling_map.nc",
+    log:
+        "results/logs/deswelling_map.log",
+    benchmark:
+        "results/benchmarks/deswelling_map.tsv"
+    params:
+        gel=tube_gel,
+        tube=config["tube"],
+        settings=config["deswelling_map"],
+    script:
+        "../scripts/deswelling_map.py"
+
+
+rule deswelling_curves:
+    input:
+        src=modules(*UNIFORM_TUBE),
+    output:
+        f"{DATA}/deswelling_curves.nc",
+    log:
+        "results/logs/deswelling_curves.log",
+    benchmark:
+        "results/benchmarks/deswelling_curves.tsv"
+    params:
+        gel=tube_gel,
+        tube=config["tube"],
+        settings=config["deswelling_curves"],
+    script:
+        "../scripts/deswelling_curves.py"
+
+
+rule tube_pulse:
+    input:
+        src=modules(*PULSE),
+    output:
+        f"{DATA}/tube_pulse.nc",
+    log:
+        "results/logs/tube_pulse.log",
+    benchmark:
+        "results/benchmarks/tube_pulse.tsv"
+    params:
+        gel=tube_gel,
+        tube=config["tube"],
+        settings=config["tube_pulse"],
+        numerics=config["numerics"]["tube_pulse"],
+    script:
+        "../scripts/tube_pulse.py"
+
+
+rule refine_tube_pulse:
+    input:
+        pulse=f"{DATA}/tube_pulse.nc",
+        src=modules(*PULSE),
+    output:
+        f"{DATA}/refinement/tube_pulse.nc",
+    log:
+        "results/logs/refine_tube_pulse.log",
+    benchmark:
+        "results/benchmarks/refine_tube_pulse.tsv"
+    params:
+        gel=tube_gel,
+        tube=config["tube"],
+        numerics=config["numerics"]["tube_pulse"],
+        subset=config["numerics"]["refine_tube_pulse"],
+    script:
+        "../scripts/refine_tube_pulse.py"
+
+
+rule front_fit:
+    input:
+        pulse=f"{DATA}/tube_pulse.nc",
+        refinement=f"{DATA}/refinement/tube_pulse.nc",
+        src=modules(*WALL, "tube/front_fit"),
+    output:
+        f"{DATA}/front_fit.nc",
+    log:
+        "results/logs/front_fit.log",
+    benchmark:
+        "results/benchmarks/front_fit.tsv"
+    params:
+        settings=config["front_fit"],
+    script:
+        "../scripts/front_fit.py"
+
+
+rule tube_flow:
+    input:
+        pulse=f"{DATA}/tube_pulse.nc",
+        src=modules(*WALL, "tube/lumen", "tube/views"),
+    output:
+        f"{DATA}/tube_flow_{{view}}.nc",
+    log:
+        "results/logs/tube_flow_{view}.log",
+    benchmark:
+        "results/benchmarks/tube_flow_{view}.tsv"
+    params:
+        view=lambda wildcards: config["tube_flow"][wildcards.view],
+    script:
+        "../scripts/tube_flow.py"
+
+
+rule water_budget:
+    input:
+        pulse=f"{DATA}/tube_pulse.nc",
+        src=modules(*WALL, "tube/lumen", "tube/budget"),
+    output:
+        f"{DATA}/water_budget.nc",
+    log:
+        "results/logs/water_budget.log",
+    benchmark:
+        "results/benchmarks/water_budget.tsv"
+    script:
+        "../scripts/water_budget.py"
+
+
+rule lumen_pulse:
+    input:
+        pulse=f"{DATA}/tube_pulse.nc",
+        fit=f"{DATA}/front_fit.nc",
+        src=modules(*GEL, *WALL, "tube/lumen", "tube/lumen_pulse"),
+    output:
+        f"{DATA}/lumen_pulse.nc",
+    log:
+        "results/logs/lumen_pulse.log",
+    benchmark:
+        "results/benchmarks/lumen_pulse.tsv"
+    params:
+        gel=tube_gel,
+        tube=config["tube"],
+        settings=config["lumen_pulse"],
+    script:
+        "../scripts/lumen_pulse.py"

@@ -14,8 +14,8 @@ with job(snakemake):
 
     def radius(gel, temperature):
         phi_initial = production.initial_polymer_fraction(gel, case)
-        # differences of one mesh: half the cells are enough
-        cells, tolerance = numerics["cells"] // 2, numerics["tolerance"]
+        # differences of one mesh: a quarter of the cells is enough
+        cells, tolerance = max(numerics["cells"] // 4, 24), numerics["tolerance"]
         return nonlinear.solve(
             gel, temperature, phi_initial, times, cells, tolerance=tolerance
         ).radius

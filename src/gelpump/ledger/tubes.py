@@ -158,7 +158,8 @@ def radial_source(budget) -> Entry:
         "Phi_2 is a square of R although its form was (R^2, ln R, 1), and F holds the coefficient "
         "16",
         f"the three stated conditions give {kappa[0]:.2f} to {kappa[-1]:.4f}, tending to 8 for "
-        "thin walls; the printed square has 8 too in the mean over the wall.  Times are twice as long",
+        "thin walls; the printed square has 8 too in the mean over the wall.  Times are then twice "
+        "as long",
         (16.0 - kappa).tolist(),
         "16 minus the coefficient for ell = " + ", ".join(f"{e:g}" for e in DRAWN_ELL),
         ROUNDING,

@@ -13,6 +13,9 @@ through the material, div(u delta) is added, u being the drift of each face (zer
 u together hold any tridiagonal Jacobian exactly: a flux a delta_right - b delta_left has
 K = (a + b)/2 and u = a - b, since FiPy's central convection takes the plain mean of two cells.
 
+The local terms go to FiPy as one transient term, c (delta - delta_old)/1 with delta_old = -G/c: an
+implicit and an explicit source would say the same for twice the time, which is what a sweep costs.
+
 Two of FiPy 4.0.3's defaults would change answers silently, and are avoided here: its default solver
 skips a solve whose right-hand side looks small, so a direct one is named; and an unrelated
 installed solver package would take over, so SciPy's is pinned before FiPy is first imported.
@@ -31,14 +34,11 @@ class NewtonSweep:
         import fipy
 
         self._mesh = mesh = fipy.Grid1D(nx=cells, dx=1.0)
-        self._delta = fipy.CellVariable(mesh=mesh, value=0.0)
+        self._delta = fipy.CellVariable(mesh=mesh, value=0.0, hasOld=True)
         self._conductance = fipy.FaceVariable(mesh=mesh, value=0.0)
         self._reaction = fipy.CellVariable(mesh=mesh, value=0.0)
-        self._residual = fipy.CellVariable(mesh=mesh, value=0.0)
-        self._equation = (
-            fipy.DiffusionTerm(coeff=self._conductance)
-            - fipy.ImplicitSourceTerm(coeff=self._reaction)
-            - self._residual
+        self._equation = fipy.TransientTerm(coeff=self._reaction) - fipy.DiffusionTerm(
+            coeff=self._conductance
         )
         self._solver = fipy.LinearLUSolver(tolerance=1e-12)
         self.sweeps = 0
@@ -46,12 +46,12 @@ class NewtonSweep:
     def correction(
         self, conductance: np.ndarray, reaction: np.ndarray, residual: np.ndarray
     ) -> np.ndarray:
-        """delta, shape (cells,), from K on the (cells + 1) faces and c, G on the cells."""
+        """delta, shape (cells,), from K on the (cells + 1) faces and c (not 0), G on the cells."""
         self._conductance.setValue(conductance)
         self._reaction.setValue(reaction)
-        self._residual.setValue(residual)
-        self._delta.setValue(0.0)
-        self._equation.sweep(var=self._delta, solver=self._solver)
+        self._delta.setValue(-residual / reaction)
+        self._delta.updateOld()
+        self._equation.sweep(var=self._delta, dt=1.0, solver=self._solver)
         self.sweeps += 1
         return self._delta.value.copy()
 
@@ -64,7 +64,7 @@ class DriftSweep(NewtonSweep):
         import fipy
 
         self._drift = fipy.FaceVariable(mesh=self._mesh, rank=1, value=0.0)
-        self._equation += fipy.CentralDifferenceConvectionTerm(coeff=self._drift)
+        self._equation -= fipy.CentralDifferenceConvectionTerm(coeff=self._drift)
 
     def correction(
         self, conductance: np.ndarray, reaction: np.ndarray, residual: np.ndarray, drift: np.ndarray

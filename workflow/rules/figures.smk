@@ -8,6 +8,13 @@ FIGURES = expand(
         "fig03_swell_bead",
         "fig04_dry_bead",
         "fig05_spinodal",
+        "fig06_tube_schematic",
+        "fig07_deswelling",
+        "fig08_profiles",
+        "fig09_relax",
+        "fig10_flow",
+        "fig11_flow_close",
+        "fig12_axial_flow",
         "fig13_osmotic",
         "fig14_equilibrium",
     ],
@@ -145,6 +152,201 @@ rule fig05_spinodal:
         cases={case: config["beads"][case] for case in config["figures"]["fig05_spinodal"]["cases"]},
     script:
         "../scripts/fig05_spinodal.py"
+
+
+rule fig06_tube_schematic:
+    input:
+        pulse=f"{DATA}/tube_pulse.nc",
+        src=modules(
+            "netcdf",
+            "figures/__init__",
+            "figures/style",
+            "figures/tube_section",
+            "figures/fig06_tube_schematic",
+        ),
+    output:
+        pdf="results/figures/fig06_tube_schematic.pdf",
+        svg="results/figures/fig06_tube_schematic.svg",
+        png=report(
+            "results/figures/fig06_tube_schematic.png",
+            caption="../report/fig06_tube_schematic.rst",
+            category="Figures",
+        ),
+    log:
+        "results/logs/fig06_tube_schematic.log",
+    benchmark:
+        "results/benchmarks/fig06_tube_schematic.tsv"
+    params:
+        figure=config["figures"]["fig06_tube_schematic"],
+    script:
+        "../scripts/fig06_tube_schematic.py"
+
+
+rule fig07_deswelling:
+    input:
+        times=f"{DATA}/deswelling_map.nc",
+        curves=f"{DATA}/deswelling_curves.nc",
+        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig07_deswelling"),
+    output:
+        pdf="results/figures/fig07_deswelling.pdf",
+        svg="results/figures/fig07_deswelling.svg",
+        png=report(
+            "results/figures/fig07_deswelling.png",
+            caption="../report/fig07_deswelling.rst",
+            category="Figures",
+        ),
+    log:
+        "results/logs/fig07_deswelling.log",
+    benchmark:
+        "results/benchmarks/fig07_deswelling.tsv"
+    params:
+        published_times=config["deswelling_curves"]["published_times"],
+        published=published("deswelling-curves"),
+    script:
+        "../scripts/fig07_deswelling.py"
+
+
+rule fig08_profiles:
+    input:
+        pulse=f"{DATA}/tube_pulse.nc",
+        src=modules(
+            "netcdf",
+            "figures/__init__",
+            "figures/style",
+            "figures/tube_section",
+            "figures/fig08_profiles",
+        ),
+    output:
+        pdf="results/figures/fig08_profiles.pdf",
+        svg="results/figures/fig08_profiles.svg",
+        png=report(
+            "results/figures/fig08_profiles.png",
+            caption="../report/fig08_profiles.rst",
+            category="Figures",
+        ),
+    log:
+        "results/logs/fig08_profiles.log",
+    benchmark:
+        "results/benchmarks/fig08_profiles.tsv"
+    params:
+        figure=config["figures"]["fig08_profiles"],
+        published=published("front-fig8"),
+    script:
+        "../scripts/fig08_profiles.py"
+
+
+rule fig09_relax:
+    input:
+        pulse=f"{DATA}/tube_pulse.nc",
+        fit=f"{DATA}/front_fit.nc",
+        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig09_relax"),
+    output:
+        pdf="results/figures/fig09_relax.pdf",
+        svg="results/figures/fig09_relax.svg",
+        png=report(
+            "results/figures/fig09_relax.png",
+            caption="../report/fig09_relax.rst",
+            category="Figures",
+        ),
+    log:
+        "results/logs/fig09_relax.log",
+    benchmark:
+        "results/benchmarks/fig09_relax.tsv"
+    params:
+        figure=config["figures"]["fig09_relax"],
+        published=published("front-phi", "A-values"),
+    script:
+        "../scripts/fig09_relax.py"
+
+
+rule fig10_flow:
+    input:
+        views=expand(f"{DATA}/tube_flow_{{view}}.nc", view=config["figures"]["fig10_flow"]["views"]),
+        src=modules(
+            "netcdf",
+            "figures/__init__",
+            "figures/style",
+            "figures/tube_section",
+            "figures/tube_flow",
+            "figures/fig10_flow",
+        ),
+    output:
+        pdf="results/figures/fig10_flow.pdf",
+        svg="results/figures/fig10_flow.svg",
+        png=report(
+            "results/figures/fig10_flow.png",
+            caption="../report/fig10_flow.rst",
+            category="Figures",
+        ),
+    log:
+        "results/logs/fig10_flow.log",
+    benchmark:
+        "results/benchmarks/fig10_flow.tsv"
+    params:
+        figure=config["figures"]["fig10_flow"],
+        views={view: config["tube_flow"][view] for view in config["figures"]["fig10_flow"]["views"]},
+    script:
+        "../scripts/fig10_flow.py"
+
+
+rule fig11_flow_close:
+    input:
+        views=expand(
+            f"{DATA}/tube_flow_{{view}}.nc", view=config["figures"]["fig11_flow_close"]["views"]
+        ),
+        budget=f"{DATA}/water_budget.nc",
+        src=modules(
+            "netcdf",
+            "figures/__init__",
+            "figures/style",
+            "figures/tube_section",
+            "figures/tube_flow",
+            "figures/fig11_flow_close",
+        ),
+    output:
+        pdf="results/figures/fig11_flow_close.pdf",
+        svg="results/figures/fig11_flow_close.svg",
+        png=report(
+            "results/figures/fig11_flow_close.png",
+            caption="../report/fig11_flow_close.rst",
+            category="Figures",
+        ),
+    log:
+        "results/logs/fig11_flow_close.log",
+    benchmark:
+        "results/benchmarks/fig11_flow_close.tsv"
+    params:
+        figure=config["figures"]["fig11_flow_close"],
+        views={
+            view: config["tube_flow"][view]
+            for view in config["figures"]["fig11_flow_close"]["views"]
+        },
+    script:
+        "../scripts/fig11_flow_close.py"
+
+
+rule fig12_axial_flow:
+    input:
+        pulse=f"{DATA}/lumen_pulse.nc",
+        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig12_axial_flow"),
+    output:
+        pdf="results/figures/fig12_axial_flow.pdf",
+        svg="results/figures/fig12_axial_flow.svg",
+        png=report(
+            "results/figures/fig12_axial_flow.png",
+            caption="../report/fig12_axial_flow.rst",
+            category="Figures",
+        ),
+    log:
+        "results/logs/fig12_axial_flow.log",
+    benchmark:
+        "results/benchmarks/fig12_axial_flow.tsv"
+    params:
+        figure=config["figures"]["fig12_axial_flow"],
+        pulse=config["lumen_pulse"],
+        published=published("lumen-peak-height", "lumen-far-nonzero", "lumen-peak-product"),
+    script:
+        "../scripts/fig12_axial_flow.py"
 
 
 rule fig13_osmotic:

@@ -2,9 +2,31 @@
 
 TABLES = expand(
     "results/tables/{table}.{suffix}",
-    table=["table2_gel_parameters"],
+    table=["table1_tube_parameters", "table2_gel_parameters"],
     suffix=["csv", "md", "tex"],
 )
+
+
+rule table1_tube_parameters:
+    input:
+        src=modules("tables", "text", "netcdf"),
+    output:
+        csv="results/tables/table1_tube_parameters.csv",
+        md=report(
+            "results/tables/table1_tube_parameters.md",
+            caption="../report/table1_tube_parameters.rst",
+            category="Tables",
+        ),
+        tex="results/tables/table1_tube_parameters.tex",
+    log:
+        "results/logs/table1_tube_parameters.log",
+    benchmark:
+        "results/benchmarks/table1_tube_parameters.tsv"
+    params:
+        gel=config["gels"][config["tube"]["gel"]],
+        tube=config["tube"],
+    script:
+        "../scripts/table1_tube_parameters.py"
 
 
 rule table2_gel_parameters:

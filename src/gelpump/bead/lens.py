@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 FIRST_STEP = 1e-10
 NEWTON_LIMIT = 8
 MARGIN = 1e-12  # from the ends of the admissible polymer fractions
+FORGETTING = 0.9  # of the curvature measured before, when it is measured anew
 NEWTON_SHARE = 0.03  # of the time tolerance: what the Newton iteration may leave
 
 
@@ -133,6 +134,7 @@ class Bead:
         self.temperature = surface.temperature
         self.mu = gel.shear_modulus(1.0)
         self.accuracy = NEWTON_SHARE * tolerance
+        self.curvature = 1.0 / self.accuracy  # a correction leaves curvature * correction^2
 
     def radius(self, u: np.ndarray) -> np.ndarray:
         """Radius a of each bead."""
@@ -156,10 +158,9 @@ class Bead:
             if not np.all(np.isfinite(u)) or u.min() <= 0.0:
                 raise bdf.NotConverged
             change = self.displacement_norm(u, du)
-            # Newton squares the error: what is left after this correction is about
-            # change * (change / previous), and never more than a plain contraction would leave.
-            left = change if previous is None else change * min(1.0, change / previous)
-            if left <= self.accuracy:
+            if previous is not None:
+                self.curvature = max(change / previous**2, FORGETTING * self.curvature)
+            if self.curvature * change**2 <= self.accuracy:
                 self.require_one_phase(u)
                 return u
             previous = change

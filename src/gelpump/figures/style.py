@@ -34,6 +34,10 @@ POLYMER_FRACTION = "YlGnBu"
 # as blue and red as the usual maps of temperature, but dark in the middle, where lines are drawn
 TEMPERATURE = LinearSegmentedColormap.from_list("temperature", ["#1f5fb4", "#857a8a", "#b2182b"])
 LATER = LinearSegmentedColormap.from_list("later", ["#b8d6ee", "#4d94cc", "#08306b"])
+# tubes from thick walls, ell = 0, to thin ones, ell = 1
+ELL = LinearSegmentedColormap.from_list(
+    "ell", ["#2d0a54", "#7a1b8c", "#c73a72", "#ef7a4a", "#f5b83d"]
+)
 
 SETTINGS = {
     "font.family": "STIXGeneral",
@@ -122,6 +126,11 @@ def zoom(axes, inset, *, joined: bool) -> None:
 def shades(colours: LinearSegmentedColormap, count: int) -> list[str]:
     """``count`` colours of a map, from its one end to the other."""
     return [to_hex(colours(share)) for share in np.linspace(0.0, 1.0, count)]
+
+
+def ell_colours(ells: Iterable[float]) -> list[str]:
+    """The colour of each tube, the same in every figure."""
+    return [to_hex(ELL(float(ell))) for ell in ells]
 
 
 def steps(

@@ -46,7 +46,7 @@ FIRST_STEP = 1e-10
 NEWTON_LIMIT = 8
 MARGIN = 1e-12  # from the ends of the admissible polymer fractions
 FORGETTING = 0.9  # of the curvature measured before, when it is measured anew
-NEWTON_SHARE = 0.03  # of the time tolerance: what the Newton iteration may leave
+NEWTON_SHARE = 0.03  # of the time tolerance, which the Newton iteration may leave
 
 
 class PhaseSeparation(bdf.Barrier):
@@ -68,6 +68,7 @@ class Shells:
         dry_radius = [np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, n + 1)) for n in cells]
         self.cells = tuple(cells)
         self.R = np.concatenate([R[1:] for R in dry_radius])
+        self.thinnest = min(float(np.diff(R).min()) for R in dry_radius)
         self.volume = np.concatenate([np.diff(R**3) for R in dry_radius])
         mean_square = [0.6 * np.diff(R**5) / np.diff(R**3) for R in dry_radius]
         self.gap = np.concatenate([np.diff(S, append=1.0) for S in mean_square])
@@ -133,7 +134,8 @@ class Bead:
         self.gel, self.surface, self.shells, self.sweep = gel, surface, shells, sweep
         self.temperature = surface.temperature
         self.mu = gel.shear_modulus(1.0)
-        self.accuracy = NEWTON_SHARE * tolerance
+        # shells thinner than what the iteration leaves would be tangled by it
+        self.accuracy = NEWTON_SHARE * min(tolerance, shells.thinnest)
         self.curvature = 1.0 / self.accuracy  # a correction leaves curvature * correction^2
 
     def radius(self, u: np.ndarray) -> np.ndarray:

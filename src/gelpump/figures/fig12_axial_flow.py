@@ -71,10 +71,10 @@ def _maximum(ax, pulse, published):
             clip_on=False,
             **style.PUBLISHED_MARKER,
         )
-    _guide(ax, A, 0.5 * float(pulse.V_max_plotted[0] * A[0]), -1)
+    _guide(ax, A, 2.2 * float(pulse.V_max_plotted[0] * A[0]), -1)
     ax.set(xscale="log", yscale="log", xlim=(A[0], A[-1]))
     ax.set(xlabel="sharpness $A$ (in $1/L$)", ylabel="maximum without\nprefactor (in $L$)")
-    ax.legend(loc="upper right", handlelength=1.4)
+    ax.legend(loc="lower left", handlelength=1.4, borderaxespad=0.3)
 
 
 def _with_prefactor(ax, pulse):
@@ -90,13 +90,13 @@ def _with_prefactor(ax, pulse):
         label="solved tubes",
     )
     bounds = np.array([0.9 * min(thickness.min(), float((1 - pulse.ell).min())), 1.0])
-    _guide(ax, bounds, 0.5 * float(pulse.V_max[some][0] * thickness[some][0]), -1)
+    _guide(ax, bounds, 2.2 * float(pulse.V_max[some][0] * thickness[some][0]), -1)
     ax.set(xscale="log", yscale="log", xlim=bounds, xlabel=r"$1-\ell$")
     ax.set_ylabel(r"$V_\mathrm{max}$ with prefactor" "\n" r"(in $k\Pi_{00}/\mu_lL$)")
     for axis, ticks in ((ax.xaxis, [0.05, 0.1, 0.2, 0.5, 1.0]), (ax.yaxis, [50, 100, 200, 500])):
         axis.set_ticks(ticks, labels=[f"{tick:g}" for tick in ticks])
     ax.minorticks_off()
-    ax.legend(loc="upper right", handlelength=1.4)
+    ax.legend(loc="lower left", handlelength=1.4, borderaxespad=0.3)
 
 
 def _guide(ax, bounds, factor, slope):
@@ -105,9 +105,9 @@ def _guide(ax, bounds, factor, slope):
     middle = np.sqrt(x.prod())
     ax.text(
         middle,
-        0.9 * factor * middle**slope,
+        1.1 * factor * middle**slope,
         f"slope ${slope}$",
         color=style.GREY,
-        ha="right",
-        va="top",
+        ha="left",
+        va="bottom",
     )

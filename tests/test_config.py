@@ -73,6 +73,13 @@ REFUSALS = [
     ("numerics.bead_lens.tolerance", "1e-5", "must be of type number"),
     ("materials.temperatures", [305.0, 300.0], "must increase"),
     ("figures.fig05_spinodal.cases", ["drying", "melting"], "must be one of"),
+    ("figures.fig10_flow.views", ["whole", "half"], "must be one of"),
+    ("figures.fig06_tube_schematic.ell", 0.33, "must be one of"),
+    ("published.dry-radius-lens.value", [1.0, 2.0], "one value for each of"),
+    ("tube.eps", -0.1, "exclusiveMinimum 0"),
+    ("gels.linear.M", -1.0, "minimum 0"),
+    ("tube_pulse.tau", [0.01, 0.001], "must increase"),
+    ("tube_pulse.ell", [0.5, 1.0], "exclusiveMaximum 1"),
     ("figures.fig02_osmotic_schema.temperatures", [305.0, 306.0], "must be one of"),
 ]
 

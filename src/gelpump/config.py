@@ -86,6 +86,7 @@ def _physical_problems(config) -> Iterator[str]:
         yield from _bead_problems(f"beads.{case}", block, gels, config["gels"])
     yield from _tube_problems(config)
     yield from _choice_problems(config)
+    yield from _published_problems(config)
 
 
 def _bead_problems(key, block, gels, blocks) -> Iterator[str]:
@@ -165,8 +166,12 @@ def _tube_problems(config) -> Iterator[str]:
 
 
 def _choice_problems(config) -> Iterator[str]:
-    """Figures and tables may only name gels, cases and temperatures that exist."""
+    """Figures and tables may only name gels, cases, temperatures, views and tubes that exist."""
+    pulse = config["tube_pulse"]
     known = {
+        "view": sorted(config["tube_flow"]),
+        "ell": pulse["ell"],
+        "tau": sorted({*pulse["tau"], *pulse["tau_range"]}),
         "gel": sorted(n for n, b in config["gels"].items() if b["model"] == "energy-based"),
         "case": sorted(config["beads"]),
         "temperature": config["materials"]["temperatures"],
@@ -181,6 +186,20 @@ def _choice_problems(config) -> Iterator[str]:
             for each in value if isinstance(value, list) else [value]:
                 if allowed is not None and each not in allowed:
                     yield f"{name}.{key} = {each!r}: must be one of {allowed}"
+
+
+def _published_problems(config) -> Iterator[str]:
+    """Radii that were read off a figure need a time each, unless no time is compared at all."""
+    for verb, case in (("swell", "swelling"), ("dry", "drying")):
+        times = config["beads"][case]["published_times"] if case in config["beads"] else []
+        for model in ("lens", "nonlinear"):
+            claim = f"{verb}-radius-{model}"
+            values = config["published"].get(claim, {"value": times})["value"]
+            if times and not (isinstance(values, list) and len(values) == len(times)):
+                yield (
+                    f"published.{claim}.value = {values}: must have one value for each of "
+                    f"beads.{case}.published_times = {times}"
+                )
 
 
 def initial_polymer_fraction(gel, case: Mapping[str, Any]) -> float:

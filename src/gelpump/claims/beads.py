@@ -14,7 +14,7 @@ def findings(data: Mapping, cases: Mapping) -> Iterator[Finding]:
     """data: datasets ``bead_{case}_{model}`` and ``refinement/bead_{case}_{model}``; cases: config
     blocks of the beads swelling, drying and separating."""
     for case in VERBS:
-        for model in MODELS:
+        for model in MODELS if cases[case]["published_times"] else ():
             yield _radius(data, case, model, cases[case]["published_times"])
     yield _slower(data)
     yield from _drying_course(data)

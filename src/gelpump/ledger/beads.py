@@ -9,8 +9,9 @@ from gelpump.ledger.entry import Entry
 
 def entries(data: Mapping, gels: Mapping, cases: Mapping, published: Mapping) -> Iterator[Entry]:
     """data: ``bead_{case}_{model}``, ``refinement/bead_{case}_{model}``, ``sensitivity_drying``."""
-    yield lens_curves("swelling", "swell", data, cases, published)
-    yield lens_curves("drying", "dry", data, cases, published)
+    for case, verb in (("swelling", "swell"), ("drying", "dry")):
+        if cases[case]["published_times"]:
+            yield lens_curves(case, verb, data, cases, published)
     yield lens_speed(data)
     yield separation_criterion(data, gels["HHT"])
     yield printed_digits(data, cases, published)
@@ -86,7 +87,7 @@ def separation_criterion(data: Mapping, gel) -> Entry:
 def printed_digits(data: Mapping, cases: Mapping, published: Mapping) -> Entry:
     """What half a unit of the last printed digit of each parameter makes of the drying radius."""
     change = data["sensitivity_drying"].radius_change
-    last = cases["drying"]["published_times"][-1]
+    last = max(cases["drying"]["published_times"], default=cases["drying"]["end"])
     half = change.sel(t=last, method="nearest")
     largest = half.parameter_name.values[np.argmax(np.abs(half.values))]
     return Entry(

@@ -1,0 +1,45 @@
+"""The README's map of figures, its commands and its example."""
+
+import re
+from pathlib import Path
+
+import yaml
+
+PROJECT = Path(__file__).resolve().parents[1]
+README = (PROJECT / "README.md").read_text()
+RULES = "".join(file.read_text() for file in (PROJECT / "workflow/rules").glob("*.smk"))
+
+
+def test_every_figure_and_table_stands_in_the_map():
+    rules = set(re.findall(r"^rule ((?:fig|table)\d\w+):", RULES, re.M))
+    mapped = set(re.findall(r"^\| ((?:fig|table)\d\w+) \|", README, re.M))
+    assert mapped == rules
+    assert len(rules) == 16
+
+
+def test_the_two_commands_begin_with_the_installation():
+    blocks = re.findall(r"<!-- (\w+) -->\n```sh\n(.*?)\n```", README)
+    commands = dict(blocks)
+    assert set(commands) == {"install", "rebuild", "tests"}
+    assert commands["rebuild"] == commands["install"] + " && .venv/bin/snakemake --cores 2"
+    assert commands["tests"] == commands["install"] + " && .venv/bin/pytest"
+
+
+def test_the_example_runs():
+    example = re.search(r"```python\n(.*?)```", README, re.S)[1]
+    scope = {}
+    exec(example.replace("tolerance=1e-4", "tolerance=1e-3"), scope)
+    radius = scope["bead"].radius.values
+    assert abs(radius[0] - scope["phi"] ** (-1 / 3)) < 1e-12
+    assert abs(radius[-1] - 2.596) < 5e-3
+
+
+def test_the_gel_of_the_readme_is_a_valid_configuration():
+    from gelpump import config as checked
+
+    block = yaml.safe_load(re.search(r"```yaml\n(.*?)```", README, re.S)[1])
+    config = yaml.safe_load((PROJECT / "config/config.yaml").read_text())
+    config["gels"].update(block["gels"])
+    config["figures"].update(block["figures"])
+    schema = yaml.safe_load((PROJECT / "workflow/schemas/config.schema.yaml").read_text())
+    checked.validate(config, schema)

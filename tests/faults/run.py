@@ -82,6 +82,7 @@ class Site(Clone):
     def complete(self, *arguments: str, targets=TARGETS, **variables: str) -> None:
         """A build that must succeed."""
         status, said = self.build(*arguments, targets=targets, **variables)
+        require("profiles/default" in said, "the default profile was not loaded")
         require(status == 0, f"the build failed:\n{said[-3000:]}")
 
     def unlock(self) -> None:
@@ -167,6 +168,9 @@ def killed(fault: Fault) -> str:
                 for pid in family if victim == "everything" else [process.pid]:
                     kill(pid)
             done[victim] += 1
+        else:
+            said = process.stdout.read()
+            require(process.returncode == 0, f"the next run failed:\n{said[-3000:]}")
         process.stdout.close()
         process.wait()
         require_same(site, fault.reference, whole=False)

@@ -48,3 +48,7 @@ def bead_case(wildcards):
 
 def bead_gel(wildcards):
     return config["gels"][config["beads"][wildcards.case]["gel"]]
+
+
+def tube_gel(wildcards):
+    return config["gels"][config["tube"]["gel"]]

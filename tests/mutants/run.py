@@ -406,7 +406,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--minutes", type=float, default=8.0)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("words", nargs="*", help="try only bugs with one of these in their name")
     arguments = parser.parse_args()
+    words = arguments.words or [""]
+    mutants = [mutant for mutant in MUTANTS if any(word in mutant.bug for word in words)]
     deadline = time.monotonic() + 60.0 * arguments.minutes
 
     def verdict(mutant: Mutant) -> str:
@@ -422,7 +425,7 @@ def main() -> int:
         ThreadPoolExecutor(arguments.jobs) as pool,
     ):
         copies = Copies(Path(folder), arguments.jobs)
-        selections = sorted({mutant.tests for mutant in MUTANTS})
+        selections = sorted({mutant.tests for mutant in mutants})
         failing = [
             tests
             for tests, fails in zip(
@@ -433,13 +436,13 @@ def main() -> int:
         for tests in failing:
             print(f"fails without any bug: pytest {tests}")
         verdicts = []
-        for mutant, found in zip(MUTANTS, pool.map(verdict, MUTANTS), strict=True):
+        for mutant, found in zip(mutants, pool.map(verdict, mutants), strict=True):
             verdicts.append(found)
             file = mutant.file.removeprefix("src/gelpump/")
             print(f"{found:9s} {mutant.bug:42s} {file:30s} {mutant.tests}", flush=True)
     caught = verdicts.count("caught")
-    print(f"{caught} of {len(MUTANTS)} mutants caught")
-    return int(bool(failing) or caught < len(MUTANTS))
+    print(f"{caught} of {len(mutants)} mutants caught")
+    return int(bool(failing) or caught < len(mutants))
 
 
 if __name__ == "__main__":

@@ -43,7 +43,7 @@ TARGETS = (
 )
 ONE = "results/data/deswelling_curves.nc"  # for faults that need one job only
 KINDS = {".nc", ".png", ".pdf", ".svg", ".csv", ".md", ".tex"}
-JOB_SECONDS = 60.0
+JOB_SECONDS, RUN_SECONDS = 60.0, 240.0
 
 
 class Skipped(Exception):
@@ -56,28 +56,46 @@ class Site(Clone):
     def __init__(self, path: Path):
         super().__init__(path)
         shutil.copy2(TINY, path / "tiny.yaml")
+        self.runs = 0
 
     @property
     def results(self) -> Path:
         return self.path / "results"
 
     def start(self, *arguments: str, **variables: str) -> subprocess.Popen:
-        """Snakemake in a session of its own, so that all its jobs can be found."""
-        return subprocess.Popen(
-            self.command(*arguments, config="tiny.yaml"),
-            cwd=self.path,
-            env=self.environment() | variables,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            start_new_session=True,
-        )
+        """Snakemake in a session of its own, so that all its jobs can be found.
+
+        It speaks to a file: a pipe would be full one day, or closed while jobs go on.
+        """
+        self.runs += 1
+        with self.said().open("w") as said:
+            return subprocess.Popen(
+                self.command(*arguments, config="tiny.yaml"),
+                cwd=self.path,
+                env=self.environment() | variables,
+                stdout=said,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+
+    def said(self, run: int = 0) -> Path:
+        """What the latest run said, or an earlier one."""
+        return self.path / f"said-{run or self.runs}.txt"
+
+    def wait(self, process: subprocess.Popen) -> None:
+        """To the end of a run; one that hangs is ended with its jobs."""
+        try:
+            process.wait(timeout=RUN_SECONDS)
+        except subprocess.TimeoutExpired:
+            for pid in session(process.pid):
+                kill(pid)
+            raise
 
     def build(self, *arguments: str, targets=TARGETS, **variables: str) -> tuple[int, str]:
         """Exit status and output of one run to its end."""
         process = self.start(*targets, *arguments, **variables)
-        said, _ = process.communicate(timeout=300)
-        return process.returncode, said
+        self.wait(process)
+        return process.returncode, self.said().read_text()
 
     def complete(self, *arguments: str, targets=TARGETS, **variables: str) -> None:
         """A build that must succeed."""
@@ -169,10 +187,9 @@ def killed(fault: Fault) -> str:
                     kill(pid)
             done[victim] += 1
         else:
-            said = process.stdout.read()
+            said = site.said().read_text()
             require(process.returncode == 0, f"the next run failed:\n{said[-3000:]}")
-        process.stdout.close()
-        process.wait()
+        site.wait(process)
         require_same(site, fault.reference, whole=False)
         site.unlock()
         if len(site.digests()) == len(fault.reference):  # and once more from nothing
@@ -204,7 +221,6 @@ def orphaned(fault: Fault) -> str:
     while not log.exists() and time.monotonic() < end:
         time.sleep(0.02)
     kill(process.pid)
-    process.stdout.close()
     process.wait()
     rule.write_text(script)
     site.complete("--unlock", targets=(ONE,))
@@ -289,8 +305,8 @@ def two_at_once(fault: Fault) -> str:
         time.sleep(0.02)
     status, said = site.build()
     require(status != 0 and "locked" in said.lower(), f"the second was let in:\n{said[-2000:]}")
-    said, _ = first.communicate(timeout=300)
-    require(first.returncode == 0, f"the first failed:\n{said[-2000:]}")
+    site.wait(first)
+    require(first.returncode == 0, f"the first failed:\n{site.said(1).read_text()[-2000:]}")
     require_same(site, fault.reference)
     return "the second was refused"
 

@@ -44,6 +44,43 @@ def test_the_papers_configuration_is_accepted():
     assert config["beads"]["drying"]["branch"] == "swollen"  # a default, filled in
 
 
+def test_the_papers_numbers():
+    """Tables 1 and 2 and what the text prints, typed a second time."""
+    keys = ("A0", "A1", "B0", "B1", "Omega")
+    ANB, HHT = (tuple(PAPER["gels"][gel][key] for key in keys) for gel in ("ANB", "HHT"))
+    assert ANB == (-12.947, 17.92, 0.04496, -0.0569, 100)
+    assert HHT == (-62.22, -58.28, 0.20470, 0.19044, 720)
+    linear = PAPER["gels"][PAPER["tube"]["gel"]]
+    assert (linear["Phi_inf"], linear["Pi_ratio"], linear["M"]) == (2, 1, 1)
+    assert (PAPER["tube"]["eps"], PAPER["tube"]["Le"]) == (0.1, 10)
+    jumps = {
+        case: (bead["gel"], bead["temperature_initial"], bead["temperature_final"])
+        for case, bead in PAPER["beads"].items()
+    }
+    assert jumps == {
+        "swelling": ("HHT", 308, 304),
+        "drying": ("HHT", 304, 307.6),
+        "separating": ("HHT", 304, 308),
+    }
+    printed = {
+        "phi0-308-hht": 0.64,
+        "phi0-304-hht": 0.05,
+        "tc-up-anb": 304.5,
+        "tc-down-anb": 306,
+        "tc-hht": 307.6,
+        "phi0-asymptote": -0.6,
+        "phi0-low-temperature": 0.01,
+        "singular-t-anb": 308,
+        "singular-t-hht": 311,
+        "lewis-number": 10,
+        "A-exponent": -1,
+        "front-position": 0.9539,
+        "lumen-height-vs-ell": -1,
+        "figure-10-ell": 0.25,
+    }
+    assert {claim: PAPER["published"][claim]["value"] for claim in printed} == printed
+
+
 def test_the_quick_configuration_is_accepted():
     checked.validate(merged(copy.deepcopy(PAPER), QUICK), SCHEMA)
 

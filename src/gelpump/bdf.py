@@ -22,6 +22,7 @@ import numpy as np
 
 SAFETY = 0.9
 SHRINK_LIMIT = 0.2
+MAX_TRIALS = 20_000  # steps, accepted or not: production needs some hundreds
 GROWTH_LIMIT = 1.5  # at a constant ratio, third order is stable up to 1.53
 
 
@@ -104,11 +105,13 @@ def integrate(
     ``error_norm(y, difference)`` measures a local error; steps keep it at or below ``tolerance``.
     ``advance`` may raise NotConverged (the step is shortened) or Barrier (the time of the barrier
     is closed in on to one part in a thousand, then the Barrier is raised).  RuntimeError if the
-    step shrinks below what double precision can resolve.
+    step shrinks below what double precision can resolve, or after MAX_TRIALS steps.
     """
     times, solutions = [0.0], [np.array(initial, dtype=float)]
     step = min(first_step, end)
-    while times[0] < end:
+    for _ in range(MAX_TRIALS):
+        if times[0] >= end:
+            return
         last = step >= end - times[0]
         t = end if last else times[0] + step
         step = t - times[0]
@@ -132,6 +135,9 @@ def integrate(
         # one step back there is no third point yet: the backward Euler error is half the distance
         share = step / (t - times[points - 1]) if points > used else 0.5
         error = share * error_norm(solution, solution - predicted) / tolerance
+        if not np.isfinite(error):
+            step *= 0.25
+            continue
         optimum = SAFETY * max(error, 1e-12) ** (-1.0 / (used + 1))
         if error > 1.0 and len(times) > 1:
             step *= max(SHRINK_LIMIT, min(optimum, SAFETY))
@@ -141,3 +147,4 @@ def integrate(
         del times[order + 1 :], solutions[order + 1 :]
         yield Step(np.array(times), np.array(solutions))
         step *= min(GROWTH_LIMIT, max(SHRINK_LIMIT, optimum))
+    raise RuntimeError(f"{MAX_TRIALS} steps ended at t = {times[0]:.8g}, before t = {end:.8g}")

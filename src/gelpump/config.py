@@ -3,16 +3,67 @@
 A refusal names the key as a path (``beads.drying.gel``), the value given and what is allowed.
 """
 
+import sys
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 THICK = 0.5  # a slenderness that is of order one
+DEEPEST, LARGEST = 20, 20_000  # nesting and number of values of a file; ours has 5 and some 600
+VALUES = 100_000_000  # of one variable of a dataset
+PLAIN = ("map", "seq", "str", "int", "float", "bool", "null")
 
 
 class ConfigError(ValueError):
     """Some keys of the configuration are refused; the message lists them all, one a line."""
+
+
+def require_plain(path: str | Path) -> None:
+    """Refuse a YAML or JSON file that does not mean what it seems to, without running any of it.
+
+    Snakemake's own loader takes the last of several equal keys, runs Python in templates
+    (``__use_yte__``), and follows aliases however large they make the whole.  Raises ConfigError.
+    """
+    import yaml
+
+    try:
+        with open(path, encoding="utf-8") as stream:
+            root = yaml.compose(stream, Loader=yaml.SafeLoader)
+    except (OSError, ValueError, yaml.YAMLError, RecursionError) as problem:
+        raise ConfigError(f"{path}: cannot be read: {problem}") from problem
+    if root is not None:
+        _refuse(f"{path}: {problem}" for problem in _node_problems(root))
+
+
+def _node_problems(root) -> Iterator[str]:
+    pending, visited = [(root, "", 0)], 0
+    while pending:
+        node, key, depth = pending.pop()
+        visited += 1
+        where = f"{key or 'the file'} (line {node.start_mark.line + 1})"
+        if depth > DEEPEST or visited > LARGEST:
+            yield f"{where}: more than {LARGEST} values, or nested deeper than {DEEPEST}"
+            return
+        kind = node.tag.removeprefix("tag:yaml.org,2002:")
+        if kind not in PLAIN:
+            yield f"{where}: {kind!r} values are not allowed; only {', '.join(PLAIN)}"
+        elif kind == "seq":
+            pending += [(item, f"{key}[{i}]", depth + 1) for i, item in enumerate(node.value)]
+        elif kind == "map":
+            seen = set()
+            for name, value in node.value:
+                path = f"{key}.{name.value}".lstrip(".")
+                if name.tag != "tag:yaml.org,2002:str":
+                    yield f"{where}: the key {name.value!r} is not a string"
+                elif name.value == "__use_yte__":
+                    yield f"{where}: templates (__use_yte__) can run code and are not allowed"
+                elif name.value in seen:
+                    yield f"{path} (line {name.start_mark.line + 1}): given twice"
+                else:
+                    seen.add(name.value)
+                    pending.append((value, path, depth + 1))
 
 
 def fill_defaults(config: dict[str, Any], schema: Mapping[str, Any]) -> None:
@@ -35,6 +86,7 @@ def validate(config: dict[str, Any], schema: Mapping[str, Any]) -> None:
 
     Raises ConfigError.
     """
+    _refuse(_value_problems(config, ""))
     _refuse(_schema_problems(config, schema))
     fill_defaults(config, schema)
     _refuse(_physical_problems(config))
@@ -44,6 +96,21 @@ def _refuse(problems: Iterator[str]) -> None:
     found = list(problems)
     if found:
         raise ConfigError("the configuration is refused:\n  " + "\n  ".join(found))
+
+
+def _value_problems(value, key) -> Iterator[str]:
+    """Keys that are not strings, and numbers that a float cannot hold."""
+    if isinstance(value, dict):
+        for name, each in value.items():
+            if isinstance(name, str):
+                yield from _value_problems(each, f"{key}.{name}".lstrip("."))
+            else:
+                yield f"{key or 'the configuration'}: the key {name!r} is not a string"
+    elif isinstance(value, list):
+        for i, each in enumerate(value):
+            yield from _value_problems(each, f"{key}[{i}]")
+    elif isinstance(value, int | float) and not abs(value) <= sys.float_info.max:
+        yield f"{key} = {str(value)[:20]}: must be a finite number"
 
 
 def _schema_problems(config, schema) -> Iterator[str]:
@@ -156,6 +223,14 @@ def _tube_problems(config) -> Iterator[str]:
     for key, values in increasing.items():
         if any(b <= a for a, b in pairwise(values)):
             yield f"{key} = {values}: must increase"
+    tubes, times = len(pulse["ell"]) + pulse["law_count"], len(pulse["tau"]) + pulse["tau_count"]
+    values = tubes * times * 2 * sum(config["numerics"]["tube_pulse"]["cells"])
+    if values > VALUES:
+        yield (
+            f"tube_pulse.law_count = {pulse['law_count']}, tube_pulse.tau_count = "
+            f"{pulse['tau_count']}, numerics.tube_pulse.cells: {values} values are too many, "
+            f"at most {VALUES}"
+        )
     solved = {"ell": pulse["ell"], "tau": sorted({*pulse["tau"], *pulse["tau_range"]})}
     for name, block in chosen.items():
         for key, allowed in solved.items():
@@ -214,3 +289,14 @@ def initial_polymer_fraction(gel, case: Mapping[str, Any]) -> float:
     if not gel.diffusivity(phi, T) > 0.0:
         raise ValueError(f"phi_initial = {phi}: D < 0 at {T} K, phases separate at once")
     return phi
+
+
+def main(paths: Iterable[str]) -> None:
+    """Check files before Snakemake, which would run what a template says, sees any of them."""
+    for path in paths:
+        require_plain(path)
+        print(f"{path}: plain")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -2,9 +2,13 @@
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+import shutil
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 import gelpump
 
@@ -27,9 +31,10 @@ def write(dataset: "xr.Dataset", path: str | Path, title: str, parameters: Mappi
     """Write ``dataset`` to ``path``, with ``parameters`` (the rule's config) in its attributes.
 
     The file appears under its name only when it is complete and on the disk.  Neither date nor
-    path is stored, so that equal inputs give equal bytes.
+    path is stored, so that equal inputs give equal bytes.  ValueError if a number in it is not
+    finite; OSError if it cannot be written.
     """
-    path = Path(path)
+    _require_finite(dataset, title)
     dataset = dataset.assign_attrs(
         Conventions="CF-1.11",
         title=title,
@@ -45,19 +50,39 @@ def write(dataset: "xr.Dataset", path: str | Path, title: str, parameters: Mappi
         if dataset.attrs[name] == "":
             del dataset.attrs[name]
     encoding = {name: {"_FillValue": None} for name in dataset.variables}
+    with whole(path) as partial:
+        dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4", encoding=encoding)
+
+
+@contextmanager
+def whole(path: str | Path) -> Iterator[Path]:
+    """Another name to write the file ``path`` under; it gets its own when all is on the disk.
+
+    What a killed run has left under that name goes first.  OSError, with the path and the space
+    left, if the file cannot be written.
+    """
+    path = Path(path)
     partial = path.with_name(f".{path.name}.partial")
     try:
-        dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4", encoding=encoding)
-        publish(partial, path)
-    finally:
         partial.unlink(missing_ok=True)
+        yield partial
+        with partial.open("rb") as stream:
+            os.fsync(stream.fileno())
+        partial.replace(path)
+    except (OSError, RuntimeError) as refusal:  # RuntimeError: how netCDF-4 tells of a full disk
+        free = shutil.disk_usage(path.parent).free // 1024
+        raise OSError(f"{path} was not written ({free} kB are free): {refusal}") from refusal
+    finally:
+        with suppress(OSError):  # on a disk that has become read-only
+            partial.unlink(missing_ok=True)
 
 
-def publish(partial: Path, path: Path) -> None:
-    """Give a finished file its name: flushed to the disk first, then renamed in one step."""
-    with partial.open("rb") as stream:
-        os.fsync(stream.fileno())
-    partial.replace(path)
+def _require_finite(dataset, title):
+    for name, each in dataset.variables.items():
+        if each.dtype.kind == "f":
+            bad = int((~np.isfinite(each.values)).sum())
+            if bad:
+                raise ValueError(f"{title}: {bad} values of {name} are not finite")
 
 
 def read(path: str | Path) -> "xr.Dataset":

@@ -4,18 +4,13 @@ import json
 from pathlib import Path
 from typing import Any
 
-from gelpump.netcdf import publish
+from gelpump.netcdf import whole
 
 
 def write_text(text: str, path: str | Path) -> None:
     """Write ``text`` to ``path`` as UTF-8, under its name only when complete."""
-    path = Path(path)
-    partial = path.with_name(f".{path.name}.partial")
-    try:
-        partial.write_text(text, encoding="utf-8")
-        publish(partial, path)
-    finally:
-        partial.unlink(missing_ok=True)
+    with whole(path) as partial:
+        partial.write_text(text, encoding="utf-8", newline="\n")
 
 
 def write_json(value: Any, path: str | Path) -> None:

@@ -107,6 +107,17 @@ def test_phases_separate_at_308_K(hht):
     assert float(coarse.radius[-1]) == pytest.approx(float(fine.radius[-1]), abs=1e-3)
 
 
+def test_a_profile_that_reaches_the_spinodal_is_told_of(hht):
+    shells = lens.Shells([8])
+    surface = lens.Surface.around(hht, 308.0, 0.05)
+    bead = lens.Bead(hht, surface, shells, lens.NewtonSweep(8), 1e-4)
+    volume = shells.volume / 0.05
+    bead.require_one_phase(np.cumsum(volume))
+    volume[3] = shells.volume[3] / 0.3
+    with pytest.raises(lens.PhaseSeparation, match=r"D < 0 at phi = 0\.3, r = "):
+        bead.require_one_phase(np.cumsum(volume))
+
+
 def test_a_bead_inside_the_spinodal_does_not_start(hht):
     bead = lens.solve(hht, 308.0, 0.3, np.array([0.0, 1.0]), 30, tolerance=1e-4)
     assert "t = 0," in bead.attrs["stopped"]

@@ -14,12 +14,12 @@ ELL, TAU = np.array([0.2, 0.8]), np.array([0.01, 0.1])
 SHARP = np.array([[40.0, 41.0], [150.0, 165.0]])
 
 
-def tubes_of(form, Phi_inf=2.0, faces=801):
+def tubes_of(form, Phi_inf=2.0, faces=801, grading=3.0):
     """Tubes whose Phi_1 is form(A (Z - Z_C)) on cells graded to the front."""
     Z_C = StepHeating().front(TAU)
     w = 0.1 * (1 - ELL) / 4
     s = np.linspace(-1, 1, faces)
-    steps = 12 * np.sinh(3 * s) / np.sinh(3)
+    steps = 12 * np.sinh(grading * s) / np.sinh(grading)
     Z_face = Z_C[:, np.newaxis] + w[:, np.newaxis, np.newaxis] * steps
     Z = (Z_face[..., 1:] + Z_face[..., :-1]) / 2
     x = SHARP[..., np.newaxis] * (Z - Z_C[:, np.newaxis])
@@ -59,10 +59,12 @@ def test_the_fit_does_not_depend_on_where_the_cells_are():
     def steeper_ahead(x):
         return 2 - (1 + np.tanh(np.where(x > 0, 1.3 * x, x))) / 2
 
-    (coarse, _), (fine, _) = (
-        front.sharpness(tubes_of(steeper_ahead, faces=n)) for n in (401, 1601)
+    (coarse, _), (fine, _), (clustered, _) = (
+        front.sharpness(tubes_of(steeper_ahead, faces=n, grading=grading))
+        for n, grading in ((401, 3.0), (1601, 3.0), (1601, 5.0))
     )
     np.testing.assert_allclose(coarse, fine, rtol=1e-4)
+    np.testing.assert_allclose(clustered, fine, rtol=1e-4)
     assert (fine > SHARP).all()
     assert (fine < 1.3 * SHARP).all()
 

@@ -57,6 +57,10 @@ def test_printed_and_matched_are_the_written_out_integrals(pulse):
     common = 8 / (0.1 * 0.8) ** 2 * D * (np.where(hot, 2.0, 1.0) - Phi) * np.diff(tube.Z_face)
     wall = Wall.of(tube)
     np.testing.assert_allclose(lumen.velocity_printed(wall)[1:], np.cumsum(Phi * common), rtol=1e-9)
+    plotted = wall.integral(Phi * D * (np.where(hot, 2.0, 1.0) - Phi))
+    np.testing.assert_allclose(
+        lumen.velocity_printed(wall), lumen.prefactor(0.1, 0.8) * plotted, rtol=1e-9
+    )
     matched = 0.8 / 0.2 * np.cumsum(common / np.cbrt(Phi))
     np.testing.assert_allclose(lumen.velocity_matched(wall)[1:], matched, rtol=1e-9)
 

@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 from tube_method_of_lines import solve as method_of_lines
 
+from gelpump.tube import slender
 from gelpump.tube.deswelling import Tubes, deswelling_curve
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
@@ -187,6 +188,20 @@ def test_fast_heat_leaves_the_end_to_uniform_deswelling():
     tube = solve(tubes, StepHeating(Le=1e4), tau, cells=(256, 40), tolerance=1e-4)
     end = tube.Phi1.isel(cell=0).values.T
     assert np.allclose(end, deswelling_curve(tau[:, np.newaxis], tubes), atol=1e-3)
+
+
+def test_slopes_of_the_flux_are_its_derivatives():
+    """What Newton's iteration is given, on both sides of the front and at it."""
+    family = slender._Family(Tubes(0.5, M=0.3, Pi_ratio=3.0, Phi_inf=4.0), HEAT, (8, 6), 12.0, 1e-9)
+    X = family.faces(0.1, family.front(0.1))
+    stretch = np.linspace(0.7, 1.0, 14)[np.newaxis]
+    _, (left, right), _, (face_left, face_right) = family.inner_faces(stretch, X)
+    shift = 1e-6 * (np.arange(14) % 2)  # every second cell: each face has one that moves
+    ends = [family.inner_faces(stretch + sign * shift, X) for sign in (1, -1)]
+    moves_right = np.arange(13) % 2 == 0
+    for which, slopes in ((0, (left, right)), (2, (face_left, face_right))):
+        found = (ends[0][which] - ends[1][which]) / 2e-6
+        np.testing.assert_allclose(found, np.where(moves_right, *slopes[::-1]), rtol=1e-5)
 
 
 def test_without_a_jump_nothing_happens():

@@ -188,6 +188,33 @@ def test_a_refusal_comes_before_any_job(clone):
     assert not (clone.path / "results").exists()
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("tube: {Le: 5.0}\ntube: {Le: 6.0}\n", "tube (line 2): given twice"),
+        ("__use_yte__: true\ntube: {Le: 5.0}\n", "templates (__use_yte__) can run code"),
+        ("tube: &a {Le: 5.0}\n1: *a\n", "the key '1' is not a string"),
+    ],
+)
+def test_what_snakemakes_loader_lets_pass_is_refused(clone, text, told):
+    (clone.path / "bad.yaml").write_text(text)
+    result = clone.snakemake("--dry-run", config="bad.yaml")
+    assert result.returncode != 0
+    assert told in said(result)
+
+
+def test_a_python_object_in_a_config_is_not_made(clone):
+    (clone.path / "bad.yaml").write_text("tube: !!python/object/apply:os.system ['touch ran']\n")
+    result = clone.snakemake("--dry-run", config="bad.yaml")
+    assert result.returncode != 0
+    assert not (clone.path / "ran").exists()
+
+
+def test_the_default_profile_is_loaded(clone):
+    result = clone.snakemake("--dry-run", "fig14_equilibrium")
+    assert "Using workflow specific profile profiles/default" in said(result)
+
+
 def test_another_gel_needs_only_a_config_block(clone):
     (clone.path / "mine.yaml").write_text(
         "gels:\n"

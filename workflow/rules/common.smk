@@ -7,6 +7,8 @@ with open(workflow.source_path("../schemas/config.schema.yaml")) as stream:
     schema = yaml.safe_load(stream)
 if workflow.is_main_process:
     try:
+        for file in workflow.configfiles:
+            checked.require_plain(file)
         checked.validate(config, schema)
     except checked.ConfigError as refusal:
         raise WorkflowError(str(refusal))

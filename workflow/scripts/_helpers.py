@@ -2,7 +2,10 @@
 
 import contextlib
 import logging
+import os
 import sys
+import threading
+import time
 import traceback
 from pathlib import Path
 
@@ -11,6 +14,8 @@ from pathlib import Path
 def job(snakemake):
     """Run the body with its output, warnings and any traceback in the rule's log file.
 
+    The job ends with its scheduler, even if that is killed: an orphan could otherwise give its
+    outdated output the name of what a later run has made.
     At the end every imported gelpump module must be among the rule's inputs: otherwise an edit of
     that module would not rerun the rule.  RuntimeError if one is not.
     """
@@ -19,6 +24,7 @@ def job(snakemake):
         contextlib.redirect_stdout(log),
         contextlib.redirect_stderr(log),
     ):
+        threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
         logging.basicConfig(stream=log, level=logging.INFO, format="%(levelname)s %(message)s")
         logging.captureWarnings(True)
         try:
@@ -27,6 +33,12 @@ def job(snakemake):
         except BaseException:
             traceback.print_exc()
             raise
+
+
+def _end_with(scheduler):
+    while os.getppid() == scheduler:
+        time.sleep(0.1)
+    os._exit(1)
 
 
 def _require_declared(declared):

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 
 LOSS = "the radial stress no longer grows with the radial stretch"
 THINNEST_SHARE = 0.01
+MAX_EVALUATIONS = 300_000  # of the rate; production needs some thousands
 ABSOLUTE = 0.01  # absolute tolerance over the relative one: radii are of order one
 MARGIN = 1e-9  # trial steps of CVODE may tangle shells: keeps their f within the gel's bounds
 
@@ -185,7 +186,8 @@ def solve(
     separate it ends there, and its attribute `stopped` says at which t, r and phi; otherwise
     `stopped` is empty.
 
-    Raises ValueError for a phi_initial outside the gel's bounds, other times or too few cells.
+    Raises ValueError for a phi_initial outside the gel's bounds, other times or too few cells, and
+    RuntimeError when CVODE fails or takes more steps than any bead needs.
     """
     from sksundae.cvode import CVODE
 
@@ -224,7 +226,7 @@ def solve(
             lband=1,
             uband=1,
             jacfn=jacobian,
-            max_num_steps=100_000,
+            max_num_steps=20_000,
             eventsfn=parabolic,
             num_events=1,
         )
@@ -236,6 +238,8 @@ def solve(
             t.append(float(step.t))
             r.append(np.array(step.y))
             evaluations = int(step.nfev)
+            if evaluations > MAX_EVALUATIONS:
+                raise RuntimeError(f"CVODE at t = {step.t}: {evaluations} evaluations of the rate")
             if step.t < time:
                 loss = bead.loss(float(step.t), r[-1])
                 break

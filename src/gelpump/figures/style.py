@@ -18,7 +18,7 @@ from matplotlib.colorbar import Colorbar
 from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap, to_hex
 from matplotlib.figure import Figure
 
-from gelpump.netcdf import publish
+from gelpump.netcdf import whole
 
 # it reports on every table of every font that a PDF embeds
 logging.getLogger("fontTools").setLevel(logging.WARNING)
@@ -154,9 +154,5 @@ def save(fig: Figure, paths: Iterable[str | Path]) -> None:
     fig.set_layout_engine("none")
     for path in map(Path, paths):
         suffix = path.suffix.lstrip(".")
-        partial = path.with_name(f".{path.name}.partial")
-        try:
+        with whole(path) as partial:
             fig.savefig(partial, format=suffix, metadata=METADATA[suffix])
-            publish(partial, path)
-        finally:
-            partial.unlink(missing_ok=True)

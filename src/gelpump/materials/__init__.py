@@ -68,7 +68,7 @@ def from_config(name: str, block: Mapping[str, Any]) -> Gel:
     that is missing or unknown, and a value the gel refuses.
     """
     model = block.get("model")
-    if model not in _MODELS:
+    if not isinstance(model, str) or model not in _MODELS:
         raise ValueError(f"{name}.model = {model!r}: must be one of {', '.join(_MODELS)}")
     gel, keys = _MODELS[model]
     given = set(block) - {"model"}

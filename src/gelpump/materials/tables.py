@@ -1,6 +1,7 @@
 """Curves and special points of an energy-based gel as one dataset (appendix A)."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -114,8 +115,8 @@ def tabulated(gel: "EnergyBasedGel", temperatures: Sequence[float], count: int) 
             fraction("whether an equilibrium is stable"),
         ),
     }
-    tip = gel.spinodal_tip()
-    if tip is not None:
+    with suppress(ValueError):  # it has none
+        tip = gel.spinodal_tip()
         variables["spinodal_tip_temperature"] = (
             (),
             tip.temperature,

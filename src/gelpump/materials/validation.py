@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import math
+import sys
 from numbers import Real
 from typing import Any
 
 
 def real_number(key: str, value: Any) -> float:
     """Return `value` as a float; ValueError when it is not a finite real number."""
-    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+    plain = isinstance(value, Real) and not isinstance(value, bool)
+    if not (plain and abs(value) <= sys.float_info.max):
         raise ValueError(f"{key} = {value!r}: must be a finite number")
     return float(value)
 

@@ -1,7 +1,7 @@
 """The family of slender tubes: accuracy, orders, conservation, limits.
 
 The errors are maxima over all cells and the front, relative to the independent solution of
-`tube_method_of_lines` where one is needed.
+`gelpump.second.tube` where one is needed.
 """
 
 import numpy as np
@@ -9,8 +9,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
-from tube_method_of_lines import solve as method_of_lines
 
+from gelpump.second.tube import solve as method_of_lines
 from gelpump.tube.deswelling import Tubes, deswelling_curve
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve

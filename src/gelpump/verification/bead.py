@@ -4,9 +4,9 @@ Barenblatt's solution.  For D = phi a drop of polymer that nothing holds togethe
 
     phi = A (1 - r^2/b^2) ,   b^5 = 25 t ,   A = 5/(2 b^3) ,
 
-an exact solution of eqn:lens_transport in the sphere: -(D/phi) phi_r = r b'/b, so every shell keeps
-its x = r/b.  The bead is what lies within x <= x_1, with the moving radius a = x_1 b and the surface
-phi_s = A (1 - x_1^2), a function of a.  ``lens.Bead``, ``lens.Shells``, FiPy's sweeps and
+an exact solution of eqn:lens_transport in the sphere: -(D/phi) phi_r = r b'/b, so every shell
+keeps its x = r/b.  The bead is what lies within x <= x_1, with the moving radius a = x_1 b and the
+surface phi_s = A (1 - x_1^2), a function of a.  ``lens.Bead``, ``lens.Shells``, FiPy's sweeps and
 ``bdf.integrate`` solve it from t = 1 on; the problem brings its own gel, D = phi, its own surface
 and that surface's slope in the Jacobian.  With x_1 = 1 the surface is where phi = 0 and J = 1/phi
 is infinite: there the scheme falls to first order.  Beads of the paper never get near it.
@@ -114,11 +114,12 @@ def _march(bead, start, end, tolerance, order, first_step):
         error_norm=bead.displacement_norm,
     ):
         steps += 1
-    return step, steps
+        last = step
+    return last, steps
 
 
 def barenblatt(cells: Sequence[int], tolerance: float, order: int = 3, inside: float = INSIDE):
-    """Faces r at t = 1 + SPREAD and the exact ones, a pair for each mesh, and the number of steps."""
+    """Faces r at t = 1 + SPREAD and the exact ones, a pair for each mesh; and how many steps."""
     exact, shells = Barenblatt(inside), lens.Shells(cells)
     bead = CutBead(LinearMobility(), exact.surface, shells, NewtonSweep(sum(cells)), tolerance)
     start, end = (exact.faces(shells.R, t) for t in (1.0, 1.0 + SPREAD))
@@ -204,8 +205,8 @@ def spreading() -> list[Study]:
     found.append(
         space(name, "radii of all shells, up to the edge phi = 0", meshes, errors, 1e-2, 0.9)
     )
-    limit = barenblatt([20], 1e-10)[0][0][0]
-    for order, tolerances in ((2, [1e-5, 1e-6, 1e-7]), (3, [1e-6, 1e-7, 1e-8])):
+    limit = barenblatt([20], 1e-9)[0][0][0]
+    for order, tolerances in ((2, [1e-4, 1e-5, 1e-6]), (3, [1e-4, 1e-5, 1e-6])):
         runs = [barenblatt([20], tolerance, order) for tolerance in tolerances]
         errors = [np.abs(beads[0][0] - limit).max() for beads, _ in runs]
         steps = [steps for _, steps in runs]

@@ -4,6 +4,9 @@ CHECKS = expand(f"{DATA}/second/bead_{{case}}_lens.nc", case=config["beads"]) + 
     f"{DATA}/second/tube_pulse.nc",
     "results/cross_check.json",
     "results/tables/cross_check.md",
+    "results/verification.json",
+    "results/tables/verification.md",
+    *(f"results/figures/verification.{suffix}" for suffix in ("pdf", "png", "svg")),
 ]
 CROSS_CHECKED = [
     f"{DATA}/{folder}{dataset}.nc"
@@ -78,3 +81,50 @@ rule cross_check:
         bounds=config["cross_check"],
     script:
         "../scripts/cross_check.py"
+
+
+rule verification:
+    input:
+        src=modules(
+            *GEL,
+            "netcdf",
+            "text",
+            "bdf",
+            "finite_volume",
+            "bead/__init__",
+            "bead/dataset",
+            "bead/lens",
+            "tube/__init__",
+            "tube/deswelling",
+            "tube/heat",
+            "tube/scaling",
+            "tube/slender",
+            "figures/__init__",
+            "figures/style",
+            "figures/verification",
+            "verification/__init__",
+            "verification/study",
+            "verification/table",
+            "verification/bead",
+            "verification/tube",
+        ),
+    output:
+        json="results/verification.json",
+        md=report(
+            "results/tables/verification.md",
+            caption="../report/verification.rst",
+            category="Evidence",
+        ),
+        pdf="results/figures/verification.pdf",
+        svg="results/figures/verification.svg",
+        png=report(
+            "results/figures/verification.png",
+            caption="../report/verification.rst",
+            category="Evidence",
+        ),
+    log:
+        "results/logs/verification.log",
+    benchmark:
+        "results/benchmarks/verification.tsv"
+    script:
+        "../scripts/verification.py"

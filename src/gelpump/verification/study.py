@@ -58,6 +58,6 @@ def time(problem, quantity, steps, errors, bound, order=ORDER) -> Study:
     return Study(problem, quantity, "steps", steps, errors, bound, order)
 
 
-def identity(problem, quantity, error, bound) -> Study:
-    """Something that holds on any mesh, but for rounding."""
+def one_run(problem, quantity, error, bound) -> Study:
+    """An error on one mesh: of an identity, which holds but for rounding, or of a limit."""
     return Study(problem, quantity, "", [1], [error], bound)

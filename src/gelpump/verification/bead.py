@@ -209,10 +209,10 @@ def spreading() -> list[Study]:
     found.append(
         space(name, "radii of all shells, up to the edge phi = 0", meshes, errors, 1e-2, 0.9)
     )
-    limit = barenblatt([20], 1e-9)[0][0][0]
-    runs = [barenblatt([20], tolerance) for tolerance in (1e-4, 1e-5, 1e-6)]
-    errors = [np.abs(beads[0][0] - limit).max() for beads, _ in runs]
-    found.append(time(name, "radii of all shells", [steps for _, steps in runs], errors, 2e-5))
+    limit = runs[0][0]  # of the first mesh, with far shorter steps
+    loose = [barenblatt(meshes[:1], tolerance) for tolerance in (1e-4, 1e-5, 1e-6)]
+    errors = [np.abs(beads[0][0] - limit).max() for beads, _ in loose]
+    found.append(time(name, "radii of all shells", [steps for _, steps in loose], errors, 2e-5))
     return found
 
 

@@ -29,6 +29,8 @@ class Study:
     @property
     def orders(self) -> list[float]:
         """Order of convergence from each resolution to the next."""
+        if len(self.errors) < 2:
+            return []
         finer = np.diff(np.log(self.resolutions))
         return [float(order) for order in -np.diff(np.log(self.errors)) / finer]
 
@@ -43,7 +45,7 @@ class Study:
         return asdict(self) | {
             "resolutions": [int(each) for each in self.resolutions],
             "errors": [float(each) for each in self.errors],
-            "orders": self.orders if len(self.errors) > 1 else [],
+            "orders": self.orders,
             "passes": self.passes,
         }
 

@@ -8,7 +8,10 @@ from matplotlib.figure import Figure
 
 from gelpump.figures import style
 
-PANELS = {"cells": ("number of cells", 2), "steps": ("number of time steps", 3)}
+PANELS = {
+    "cells": ("number of cells", 2, (20, 40, 80, 160)),
+    "steps": ("number of time steps", 3, (20, 30, 40)),
+}
 COLOURS = {
     "Barenblatt's bead": style.LENS,
     "relaxing bead": style.SEPARATING,
@@ -16,13 +19,17 @@ COLOURS = {
     "relaxing tube": style.DRYING,
 }
 MARKERS = ("o", "s", "^")
-NAMES = {"Phi_1": r"$\Phi_1$", "Phi_1 at Z_C": r"$\Phi_1$ at $Z_C$"}
+NAMES = {
+    "Phi_1": r"$\Phi_1$",
+    "Phi_1 at Z_C": r"$\Phi_1$ at $Z_C$",
+    "radii of all shells, up to the edge phi = 0": r"all radii, up to an edge $\phi = 0$",
+}
 
 
 def draw(studies: Sequence[Mapping[str, Any]]) -> Figure:
     """(a) Error against cells, (b) against steps; ``studies`` as in verification.json."""
     fig = style.figure(height=3.6)
-    for axes, letter, (against, (label, slope)) in zip(
+    for axes, letter, (against, (label, slope, ticks)) in zip(
         fig.subplots(1, 2, sharey=True), "ab", PANELS.items(), strict=True
     ):
         shown = [each for each in studies if each["against"] == against]
@@ -40,6 +47,8 @@ def draw(studies: Sequence[Mapping[str, Any]]) -> Figure:
             drawn[problem] += 1
         _reference(axes, shown, slope)
         axes.set_xlabel(label)
+        axes.set_xticks(ticks, labels=map(str, ticks))
+        axes.set_xticks([], minor=True)
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), fontsize=7)
         style.panel_label(axes, letter)
         if letter == "a":

@@ -24,6 +24,7 @@ include: "workflow/rules/tube.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/claims.smk"
+include: "workflow/rules/evidence.smk"
 
 
 rule all:
@@ -38,3 +39,4 @@ rule all:
         "results/tables/claims.md",
         "results/ledger.json",
         "results/tables/ledger.md",
+        CHECKS,

@@ -1,16 +1,14 @@
 """The family of slender tubes: accuracy, orders, conservation, limits.
 
 The errors are maxima over all cells and the front, relative to the independent solution of
-`tube_method_of_lines` where one is needed.
+`gelpump.second.tube` where one is needed.
 """
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq
-from tube_method_of_lines import solve as method_of_lines
 
+from gelpump.second.tube import solve as method_of_lines
 from gelpump.tube import slender
 from gelpump.tube.deswelling import Tubes, deswelling_curve
 from gelpump.tube.heat import StepHeating
@@ -158,28 +156,6 @@ def test_a_member_does_not_feel_the_family(solution):
     alone = solve(Tubes(0.5), HEAT, TAU[:3]).isel(ell=0)
     together = solution.isel(ell=1, tau=slice(3))
     assert np.abs(alone.Phi1_front - together.Phi1_front).max() < 3e-4
-
-
-def test_thin_wall_limit():
-    """For ell -> 1 the front is static: (K lambda_x)_x = w^2 S, integrated once on each side."""
-    M, Pi_ratio, Phi_inf = 0.3, 3.0, 4.0
-
-    def work(stretch, s, Phi_0):
-        def integrand(y):
-            K = s * y**-5 + 4 * M / 3 * y**-3
-            return K * (s / y + 4 * M / 3 * y) * (Phi_0 - y**-3) / 3
-
-        return quad(integrand, Phi_0 ** (-1 / 3), stretch)[0]
-
-    hot = Pi_ratio / Phi_inf, Phi_inf
-    at_front = brentq(lambda y: work(y, *hot) - work(y, 1.0, 1.0), Phi_inf ** (-1 / 3) + 1e-9, 1)
-    tube = solve(
-        Tubes(0.9995, 0.1, M, Pi_ratio, Phi_inf), HEAT, [0.01], cells=(128, 80), tolerance=3e-4
-    )
-    assert np.isclose(tube.Phi1_front.item(), at_front**-3, atol=1e-3)
-    w = 0.1 * 0.0005 / 4
-    slope = -3 * at_front**-3 * np.sqrt(2 * work(at_front, *hot)) / w
-    assert np.isclose(tube.flux.isel(face=128).item(), slope, rtol=1e-3)
 
 
 def test_fast_heat_leaves_the_end_to_uniform_deswelling():

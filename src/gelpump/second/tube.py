@@ -1,24 +1,38 @@
-"""An independent solution of eqn:tube_model, against which the package's own is measured.
+"""The slender tube by the method of lines: a second solution, which shares no code with the first.
 
-Nothing is shared with `gelpump`: one tube, the equation in the laboratory frame, finite differences
-at nodes (not finite volumes), SUNDIALS' IDA in ln(tau) (not BDF in sqrt(tau)), a boundary value of
-one far ahead (not a vanishing gradient). With F the source and I' = F/Phi, I(0) = 0 (`inflow`),
+One tube, eqn:tube_model in the laboratory frame, finite differences at nodes (not finite volumes in
+material coordinates), SUNDIALS in ln(tau) (not backward differences in sqrt(tau)), a boundary value
+of one far ahead (not a vanishing gradient).  With F the source and I' = F/Phi, I(0) = 0 (`inflow`),
 
     Phi_tau + [ (2/3)(D/Phi) Phi_Z - I/3 ] Phi_Z = F + (D Phi_Z)_Z ,
 
 which follows from the printed equation: for G = Integral_0^Z Phi^{-2/3} Phi_tau du it reads
 d/dZ(Phi^{-1/3} G) = F/Phi + d/dZ(D Phi_Z/Phi), so that no time derivative is left in the integral.
-I is solved for together with Phi, which keeps the Jacobian banded. The nodes move with the front,
+I is solved for together with Phi: the Jacobian stays banded, and the system becomes one of ordinary
+and algebraic equations, which is why this is IDA, CVODE's sibling.  The nodes move with the front,
 and one of them is the front, where the condition is continuity of D Phi_Z.
 """
 
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
 import numpy as np
 from scipy.special import erfcinv
-from sksundae.ida import IDA
+
+from gelpump.netcdf import variable
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+ORDER = 2  # in space
+SAFETY = 1.25  # of the grid-convergence index
+COARSER = 10.0  # times looser are the tolerances of the coarse run
 
 
 def solve(tau, ell, eps=0.1, M=1.0, Pi_ratio=1.0, Phi_inf=2.0, Le=10.0, nodes=400, rtol=1e-7):
     """Z and Phi_1 at the `tau`, shape (tau, 2 nodes + 1); the front is in column `nodes`."""
+    from sksundae.ida import IDA
+
     n = nodes
     w = eps * (1 - ell) / 4
     s = np.arange(n + 1) / n
@@ -103,3 +117,51 @@ def solve(tau, ell, eps=0.1, M=1.0, Pi_ratio=1.0, Phi_inf=2.0, Le=10.0, nodes=40
         raise RuntimeError(f"IDA failed: {result.message}")
     Phi = result.y[-len(tau) :, 0::2]
     return np.array([grid(t)[0] for t in tau]), Phi
+
+
+def observed(gel, tube: Mapping, ell, tau, nodes: int, rtol: float) -> "xr.Dataset":
+    """Phi_1 of the tubes ``ell`` at the times ``tau``, with its uncertainty.
+
+    There are ``nodes`` intervals on either side of the front, an even number.  The uncertainty
+    comes from a run with half as many and looser tolerances: the difference of the two holds the
+    error of time as well.
+    The gel lends its parameters M, Pi_ratio and Phi_inf, ``tube`` eps and Le.
+    """
+    import xarray as xr
+
+    parameters = {
+        "eps": tube["eps"],
+        "Le": tube["Le"],
+        "M": gel.M,
+        "Pi_ratio": gel.Pi_ratio,
+        "Phi_inf": gel.Phi_inf,
+    }
+    if nodes % 2:
+        raise ValueError(f"nodes = {nodes}: must be even")
+    Z, Phi, change = [], [], []
+    for each in ell:
+        positions, values = solve(tau, each, **parameters, nodes=nodes, rtol=rtol)
+        _, fewer = solve(tau, each, **parameters, nodes=nodes // 2, rtol=COARSER * rtol)
+        Z.append(positions)
+        Phi.append(values)
+        change.append(np.abs(values[:, ::2] - fewer))  # every other node is one of the coarse mesh
+    error = SAFETY / (2**ORDER - 1) * np.array(change)
+    Phi = np.array(Phi)
+    long_name = "polymer fraction in the middle of the wall"
+    return xr.Dataset(
+        {
+            "Phi1": variable(("ell", "tau", "node"), Phi, long_name),
+            "Z": variable(("ell", "tau", "node"), np.array(Z), "axial position of the nodes"),
+            "Phi1_uncertainty": variable(
+                ("ell", "tau"), error.max(axis=2), f"numerical uncertainty: {long_name}"
+            ),
+            "Phi1_front": variable(("ell", "tau"), Phi[..., nodes], f"{long_name} at Z_C"),
+            "Phi1_front_uncertainty": variable(
+                ("ell", "tau"), error[..., nodes // 2], f"numerical uncertainty: {long_name} at Z_C"
+            ),
+        },
+        coords={
+            "ell": variable("ell", np.asarray(ell), "ratio of inner to outer radius, a_0/a_1"),
+            "tau": variable("tau", np.asarray(tau), "elapsed time"),
+        },
+    )

@@ -1,0 +1,5 @@
+"""Each partial differential equation solved a second time, and the two solutions compared.
+
+Nothing here knows the FiPy solvers, nor they this: other variables, other meshes, other formulae in
+time (SUNDIALS).  Where both agree, an error would have to have been made twice.
+"""

@@ -1,0 +1,230 @@
+"""The LENS bead by the method of lines: a second solution, which shares no code with the first.
+
+With m = R^3 the dry volume inside a material shell (R its dry radius) and J = 1/phi, the equations
+of section 2 (eqn:lens_transport, q = 0) become, in units of R_dry, t_BMJ and k_B T/Omega_p,
+
+    dJ/dt = d/dm [ 9 r^4 Omega D phi^2 dJ/dm ] ,   r^3 = Integral_0^m J dm ,
+    Omega Pi(phi_s, T) = 4 (1/a - phi_s^{1/3})  at m = 1 ,
+
+where D is in (k/mu_l) k_B T/Omega_f: t_BMJ holds Omega_p = Omega Omega_f, hence the factor Omega.
+Midpoint finite volumes in s, R = sin(pi s/2), where J is smooth and even at the centre and at the
+surface; CVODE with a dense Jacobian, because r depends on all shells inside.  The gel only lends
+its parameters A0, A1, B0, B1 and Omega.
+
+The surface stays within the interval of D > 0 that it starts from.  The model ends, and CVODE finds
+when, as soon as that interval holds no stress-free surface or a shell leaves it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from gelpump.netcdf import variable
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+ORDER = 2  # in space
+SAFETY = 1.25  # of the grid-convergence index
+ABSOLUTE = 0.01  # absolute tolerance over the relative one
+COARSER = 10.0  # times looser are the tolerances of the coarse run
+
+
+class Course(NamedTuple):
+    """A bead's course: its radius a and its shells' (r, phi) at the times t, and where it stopped.
+
+    ``stop`` is None, or the time at which the model ended; the last of t is then before it.
+    """
+
+    t: NDArray
+    radius: NDArray
+    r: NDArray
+    polymer_fraction: NDArray
+    stop: float | None
+
+
+def diffusivity(gel, T, phi):
+    """Omega D of the LENS bead, arrays or floats."""
+    a, b = gel.A0 + gel.B0 * T, gel.A1 + gel.B1 * T
+    mixing = phi**2 / (1 - phi) - 2 * phi**2 * (a - b) - 6 * phi**3 * b
+    return phi + phi ** (1 / 3) + gel.Omega * mixing
+
+
+def surface_load(gel, T, phi):
+    """Omega Pi + 4 phi^{1/3}, equal to 4/a at a stress-free surface; its slope is Omega D/phi."""
+    a, b = gel.A0 + gel.B0 * T, gel.A1 + gel.B1 * T
+    mixing = -phi - math.log1p(-phi) - phi**2 * (a + (2 * phi - 1) * b)
+    return phi + 3 * phi ** (1 / 3) + gel.Omega * mixing
+
+
+def stable_interval(gel, T, phi):
+    """The interval around phi within which D > 0."""
+    grid = np.concatenate([np.geomspace(1e-6, 0.1, 201), np.linspace(0.1, 1 - 1e-9, 2001)[1:]])
+    stable = diffusivity(gel, T, grid) > 0
+
+    def end(inside, outside):
+        return brentq(lambda p: diffusivity(gel, T, p), grid[inside], grid[outside], xtol=1e-15)
+
+    below = np.flatnonzero(~stable & (grid < phi))
+    above = np.flatnonzero(~stable & (grid > phi))
+    low = end(below[-1] + 1, below[-1]) if below.size else grid[0]
+    high = end(above[0] - 1, above[0]) if above.size else grid[-1]
+    return low, high
+
+
+class Shells:
+    """The semi-discrete equations of one bead."""
+
+    def __init__(self, gel, T: float, phi: float, cells: int):
+        self.gel, self.T = gel, T
+        s = np.linspace(0, 1, cells + 1)
+        R, middle = np.sin(np.pi / 2 * s), np.sin(np.pi / 2 * (s[1:] + s[:-1]) / 2)
+        self.volume = np.diff(R**3)
+        # dJ/dm = (dJ/ds)/(dm/ds) inside; at the surface both vanish, and dJ/dm = (dJ/dR)/3
+        inside = np.diff((s[1:] + s[:-1]) / 2) * 3 * R[1:-1] ** 2 * np.pi / 2
+        inside = inside * np.cos(np.pi / 2 * s[1:-1])
+        self.spacing = np.append(inside, 3 * (1 - middle[-1]))
+        self.interval = stable_interval(gel, T, phi)
+        self.loads = [surface_load(gel, T, end) for end in self.interval]
+        self.within = np.tril(np.ones((cells, cells)))  # face i encloses the shells up to i
+
+    def surface(self, a: float) -> float:
+        """phi_s of a bead of radius a, kept at the end of the interval beyond it."""
+        if not self.loads[0] < 4 / a < self.loads[1]:
+            return self.interval[0] if 4 / a <= self.loads[0] else self.interval[1]
+        return brentq(lambda phi: surface_load(self.gel, self.T, phi) - 4 / a, *self.interval)
+
+    def mobility(self, J: NDArray) -> NDArray:
+        """Omega D phi^2."""
+        return diffusivity(self.gel, self.T, 1 / J) / J**2
+
+    def fluxes(self, J: NDArray):
+        """Flux through each outer face, r^3 there, and J of all shells and the surface."""
+        cube = np.cumsum(J * self.volume)
+        states = np.append(J, 1 / self.surface(cube[-1] ** (1 / 3)))
+        mean = self.mobility(states)
+        mean = (mean[1:] + mean[:-1]) / 2
+        return 9 * cube ** (4 / 3) * np.diff(states) / self.spacing * mean, cube, states, mean
+
+    def rate(self, J: NDArray) -> NDArray:
+        """dJ/dt."""
+        return np.diff(self.fluxes(J)[0], prepend=0.0) / self.volume
+
+    def jacobian(self, J: NDArray) -> NDArray:
+        """d(rate)/dJ, dense."""
+        flux, cube, states, mean = self.fluxes(J)
+        step = 1e-6 * states
+        slope = (self.mobility(states + step) - self.mobility(states - step)) / (4 * step)
+        conductance, rise = 9 * cube ** (4 / 3) / self.spacing, np.diff(states)
+        inner = conductance * (rise * slope[:-1] - mean)
+        outer = conductance * (rise * slope[1:] + mean)
+        slopes = (4 / 3 * flux / cube)[:, None] * self.within * self.volume
+        i = np.arange(J.size)
+        slopes[i, i] += inner
+        slopes[i[:-1], i[1:]] += outer[:-1]
+        # J_s follows the radius: 4/a = load(phi_s) with the slope Omega D/phi_s
+        stiffness = diffusivity(self.gel, self.T, 1 / states[-1]) * states[-1]
+        if stiffness > 1e-6:
+            slopes[-1] += (
+                outer[-1]
+                * 4
+                / 3
+                * cube[-1] ** (-4 / 3)
+                * (states[-1] ** 2 / stiffness)
+                * self.volume
+            )
+        return np.diff(slopes, axis=0, prepend=0.0) / self.volume[:, None]
+
+    def margin(self, J: NDArray) -> float:
+        """Positive while the surface is free of stress and all shells are stable."""
+        load = 4 / np.cbrt(J @ self.volume)
+        low, high = self.interval
+        return min(
+            load - self.loads[0], self.loads[1] - load, 1 / J.max() - low, high - 1 / J.min()
+        )
+
+
+def solve(gel, T, phi_initial, times, cells, *, rtol=1e-8) -> Course:
+    """The bead of uniform phi_initial at constant temperature T, at ``times`` (increasing from 0).
+
+    ``cells`` shells; ``rtol`` is CVODE's relative tolerance.
+    """
+    from sksundae.cvode import CVODE
+
+    shells = Shells(gel, T, phi_initial, cells)
+
+    def rate(t, J, dJdt):
+        dJdt[:] = shells.rate(J)
+
+    def jacobian(t, J, dJdt, slopes):
+        slopes[:] = shells.jacobian(J)
+
+    def margin(t, J, events):
+        events[0] = shells.margin(J)
+
+    solver = CVODE(
+        rate,
+        jacfn=jacobian,
+        rtol=rtol,
+        atol=ABSOLUTE * rtol,
+        linsolver="dense",
+        max_num_steps=10**5,
+        eventsfn=margin,
+        num_events=1,
+    )
+    states, stop = [np.full(cells, 1 / phi_initial)], None
+    solver.init_step(0.0, states[0])
+    for time in times[1:]:
+        step = solver.step(time)
+        if not step.success:
+            raise RuntimeError(f"CVODE at t = {step.t}: {step.message}")
+        if step.t < time:
+            stop = float(step.t)
+            break
+        states.append(np.array(step.y))
+    J = np.array(states)
+    cube = np.cumsum(J * shells.volume, axis=1)
+    r = np.cbrt(cube - J * shells.volume / 2)
+    return Course(np.asarray(times)[: len(J)], np.cbrt(cube[:, -1]), r, 1 / J, stop)
+
+
+def observed(gel, T, phi_initial, times, cells: int, rtol: float) -> xr.Dataset:
+    """Radius and stop time on two meshes, dim level, with the uncertainty of the first.
+
+    The first has ``cells`` shells, the second half as many and looser tolerances, so that the
+    difference of the two holds the error of time as well.
+    """
+    import xarray as xr
+
+    levels = [(cells, rtol), (cells // 2, COARSER * rtol)]
+    runs = [solve(gel, T, phi_initial, times, n, rtol=tolerance) for n, tolerance in levels]
+    share = SAFETY / (2**ORDER - 1)
+    common = min(run.t.size for run in runs)
+    radius = np.array([run.radius[:common] for run in runs])
+    data = {
+        "radius": variable(("level", "t"), radius, "radius of the bead", "lengths in R_dry"),
+        "radius_uncertainty": variable(
+            "t", share * np.abs(radius[0] - radius[1]), "numerical uncertainty: radius of the bead"
+        ),
+    }
+    stops = [run.stop for run in runs]
+    if None not in stops:
+        data["stop_time"] = variable("level", stops, "time at which phases begin to separate")
+        data["stop_time_uncertainty"] = variable(
+            (),
+            share * abs(stops[0] - stops[1]),
+            "numerical uncertainty: time at which phases begin to separate",
+        )
+    return xr.Dataset(
+        data,
+        coords={
+            "t": variable("t", runs[0].t[:common], "elapsed time", "t_BMJ"),
+            "cells": variable("level", [n for n, _ in levels], "number of shells"),
+            "tolerance": variable("level", [rtol for _, rtol in levels], "tolerance of CVODE"),
+        },
+    )

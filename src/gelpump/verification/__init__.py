@@ -1,0 +1,1 @@
+"""The FiPy solvers on problems whose solutions are known: errors, orders, conservation, limits."""

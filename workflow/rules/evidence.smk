@@ -1,0 +1,130 @@
+# Why a number may be believed: a second solver for each equation, and known solutions.
+
+CHECKS = expand(f"{DATA}/second/bead_{{case}}_lens.nc", case=config["beads"]) + [
+    f"{DATA}/second/tube_pulse.nc",
+    "results/cross_check.json",
+    "results/tables/cross_check.md",
+    "results/verification.json",
+    "results/tables/verification.md",
+    *(f"results/figures/verification.{suffix}" for suffix in ("pdf", "png", "svg")),
+]
+CROSS_CHECKED = [
+    f"{DATA}/{folder}{dataset}.nc"
+    for dataset in [*(f"bead_{case}_lens" for case in config["beads"]), "tube_pulse"]
+    for folder in ["", "refinement/", "second/"]
+]
+
+
+rule second_bead_lens:
+    input:
+        src=modules(
+            *GEL,
+            "netcdf",
+            "config",
+            "uncertainty",
+            "bead/__init__",
+            "bead/production",
+            "second/__init__",
+            "second/lens_bead",
+        ),
+    output:
+        f"{DATA}/second/bead_{{case}}_lens.nc",
+    log:
+        "results/logs/second_bead_{case}_lens.log",
+    benchmark:
+        "results/benchmarks/second_bead_{case}_lens.tsv"
+    params:
+        case=bead_case,
+        gel=bead_gel,
+        numerics=config["numerics"]["second_bead_lens"],
+        output_times=config["numerics"]["bead_lens"]["output_times"],
+    script:
+        "../scripts/second_bead_lens.py"
+
+
+rule second_tube_pulse:
+    input:
+        src=modules(*GEL, "netcdf", "second/__init__", "second/tube"),
+    output:
+        f"{DATA}/second/tube_pulse.nc",
+    log:
+        "results/logs/second_tube_pulse.log",
+    benchmark:
+        "results/benchmarks/second_tube_pulse.tsv"
+    params:
+        gel=tube_gel,
+        tube=config["tube"],
+        ell=config["numerics"]["refine_tube_pulse"]["ell"],
+        tau=config["tube_pulse"]["tau"],
+        numerics=config["numerics"]["second_tube_pulse"],
+    script:
+        "../scripts/second_tube_pulse.py"
+
+
+rule cross_check:
+    input:
+        data=CROSS_CHECKED,
+        src=modules("netcdf", "text", "uncertainty", "second/__init__", "second/cross_check"),
+    output:
+        json="results/cross_check.json",
+        md=report(
+            "results/tables/cross_check.md",
+            caption="../report/cross_check.rst",
+            category="Evidence",
+        ),
+    log:
+        "results/logs/cross_check.log",
+    benchmark:
+        "results/benchmarks/cross_check.tsv"
+    params:
+        cases=list(config["beads"]),
+        bounds=config["cross_check"],
+    script:
+        "../scripts/cross_check.py"
+
+
+rule verification:
+    input:
+        src=modules(
+            *GEL,
+            "netcdf",
+            "text",
+            "bdf",
+            "finite_volume",
+            "bead/__init__",
+            "bead/dataset",
+            "bead/lens",
+            "tube/__init__",
+            "tube/deswelling",
+            "tube/heat",
+            "tube/scaling",
+            "tube/slender",
+            "figures/__init__",
+            "figures/style",
+            "figures/verification",
+            "verification/__init__",
+            "verification/study",
+            "verification/table",
+            "verification/bead",
+            "verification/tube",
+        ),
+    output:
+        json="results/verification.json",
+        md=report(
+            "results/tables/verification.md",
+            caption="../report/verification.rst",
+            category="Evidence",
+        ),
+        pdf="results/figures/verification.pdf",
+        svg="results/figures/verification.svg",
+        png=report(
+            "results/figures/verification.png",
+            caption="../report/verification.rst",
+            category="Evidence",
+        ),
+    log:
+        "results/logs/verification.log",
+    benchmark:
+        "results/benchmarks/verification.tsv"
+    script:
+        "../scripts/verification.py"

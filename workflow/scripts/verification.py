@@ -1,0 +1,20 @@
+"""Rule verification: the FiPy solvers on problems whose solutions are known."""
+
+from _helpers import job
+
+with job(snakemake):
+    from gelpump.figures import style, verification
+    from gelpump.text import write_json, write_text
+    from gelpump.verification import bead, table, tube
+
+    studies = [*bead.studies(), *tube.studies()]
+    print(table.markdown(studies))
+    table.require_all(studies)
+    records = [study.record() for study in studies]
+    write_json(records, snakemake.output.json)
+    write_text(table.markdown(studies), snakemake.output.md)
+    with style.styled():
+        style.save(
+            verification.draw(records),
+            [snakemake.output.pdf, snakemake.output.png, snakemake.output.svg],
+        )

@@ -1,6 +1,10 @@
 # gelpump: every figure, table and number of Webber & Montenegro-Johnson (2025), from one command:
 #
 #   snakemake --cores 2
+#
+# and whether a build is still what was made, with the numbers that it should have:
+#
+#   snakemake --cores 2 verify
 
 from snakemake.utils import min_version
 
@@ -25,18 +29,11 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/evidence.smk"
+include: "workflow/rules/verify.smk"
 
 
 rule all:
     input:
-        MATERIALS,
-        BEADS,
-        TUBES,
-        SENSITIVITIES,
-        FIGURES,
-        TABLES,
-        "results/claims.json",
-        "results/tables/claims.md",
-        "results/ledger.json",
-        "results/tables/ledger.md",
-        CHECKS,
+        PRODUCTS,
+        "results/manifest.json",
+        "results/ro-crate-metadata.json",

@@ -15,6 +15,8 @@ import gelpump
 if TYPE_CHECKING:
     import xarray as xr
 
+    from gelpump.provenance import Provenance
+
 PAPER = (
     "Webber, J. J. & Montenegro-Johnson, T. D. (2025) Poromechanical modelling of responsive "
     "hydrogel pumps. J. Fluid Mech."
@@ -27,8 +29,16 @@ def variable(dims, values, long_name: str, comment: str = ""):
     return dims, values, attrs | ({"comment": comment} if comment else {})
 
 
-def write(dataset: "xr.Dataset", path: str | Path, title: str, parameters: Mapping[str, Any]):
+def write(
+    dataset: "xr.Dataset",
+    path: str | Path,
+    title: str,
+    parameters: Mapping[str, Any],
+    provenance: "Provenance | None" = None,
+):
     """Write ``dataset`` to ``path``, with ``parameters`` (the rule's config) in its attributes.
+
+    ``provenance`` adds what it was made from; every rule gives it, a session by hand has none.
 
     The file appears under its name only when it is complete and on the disk.  Neither date nor
     path is stored, so that equal inputs give equal bytes.  ValueError if a number in it is not
@@ -44,6 +54,7 @@ def write(dataset: "xr.Dataset", path: str | Path, title: str, parameters: Mappi
         references=PAPER,
         comment="quantities are dimensionless unless their units say otherwise",
         parameters=json.dumps(parameters, sort_keys=True),
+        **(provenance.attributes() if provenance else {}),
         **{k: v for k, v in dataset.attrs.items() if v != ""},
     )
     for name in list(dataset.attrs):

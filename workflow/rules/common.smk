@@ -25,7 +25,11 @@ def modules(*names):
     They are inputs, so that an edit reruns what depends on it and nothing else.  A job fails if it
     imported a module that its rule does not list; a test fails if a listed one is not used.
     """
-    files = ["src/gelpump/__init__.py", "workflow/scripts/_helpers.py"]
+    files = [
+        "src/gelpump/__init__.py",
+        "src/gelpump/provenance.py",
+        "workflow/scripts/_helpers.py",
+    ]
     return files + [f"src/gelpump/{name.replace('.', '/')}.py" for name in names]
 
 

@@ -1,6 +1,7 @@
 """What every script does around its work: log what happens, and hold its rule to its word."""
 
 import contextlib
+import json
 import logging
 import os
 import sys
@@ -16,6 +17,10 @@ def job(snakemake):
 
     The job ends with its scheduler, even if that is killed: an orphan could otherwise give its
     outdated output the name of what a later run has made.
+
+    Gives what the job is made from, for `netcdf.write` and `figures.style.save`, and leaves it,
+    with the digests of what was made, in results/provenance, under the name of the log file.
+
     At the end every imported gelpump module must be among the rule's inputs: otherwise an edit of
     that module would not rerun the rule.  RuntimeError if one is not.
     """
@@ -28,8 +33,11 @@ def job(snakemake):
         logging.basicConfig(stream=log, level=logging.INFO, format="%(levelname)s %(message)s")
         logging.captureWarnings(True)
         try:
-            yield
+            provenance = _provenance(snakemake)
+            yield provenance
             _require_declared(snakemake.input.src)
+            if snakemake.output:
+                _leave_record(provenance.record(snakemake.output), Path(snakemake.log[0]))
         except BaseException:
             traceback.print_exc()
             raise
@@ -39,6 +47,28 @@ def _end_with(scheduler):
     while os.getppid() == scheduler:
         time.sleep(0.1)
     os._exit(1)
+
+
+def _provenance(snakemake):
+    from gelpump.provenance import Provenance, digest, file_digests
+
+    code = set(snakemake.input.src)
+    script = Path(snakemake.scriptdir).resolve() / f"{snakemake.rule}.py"
+    return Provenance(
+        rule=snakemake.rule,
+        wildcards=dict(snakemake.wildcards.items()),
+        code=file_digests(code | {script.relative_to(Path.cwd().resolve()).as_posix()}),
+        inputs=file_digests(set(snakemake.input) - code),
+        config=digest(dict(snakemake.params.items())),
+    )
+
+
+def _leave_record(record, log):
+    path = log.parent.parent / "provenance" / f"{log.stem}.json"
+    path.parent.mkdir(exist_ok=True)
+    partial = path.with_name(f".{path.name}.partial")
+    partial.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    partial.replace(path)
 
 
 def _require_declared(declared):

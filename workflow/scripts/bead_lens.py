@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.bead import lens, production
     from gelpump.materials import from_config
@@ -24,4 +24,5 @@ with job(snakemake):
         snakemake.output[0],
         title=f"{snakemake.wildcards.case} bead, LENS model",
         parameters={"case": case, "gel": snakemake.params.gel, "numerics": numerics},
+        provenance=provenance,
     )

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.bead import nonlinear, production
     from gelpump.bead.sensitivity import sensitivity
@@ -30,4 +30,5 @@ with job(snakemake):
             "numerics": numerics,
             "half_units": snakemake.params.half_units,
         },
+        provenance=provenance,
     )

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.materials import from_config
     from gelpump.tube import uniform
@@ -14,4 +14,5 @@ with job(snakemake):
         snakemake.output[0],
         title="uniform deswelling and reswelling of tubes",
         parameters={"tube": params.tube, "gel": params.gel, "deswelling_curves": params.settings},
+        provenance=provenance,
     )

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig01_lens_schematic, style
 
@@ -10,4 +10,4 @@ with job(snakemake):
         fig = fig01_lens_schematic.draw(
             netcdf.read(snakemake.input.bead), snakemake.params.figure["time"]
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig02_osmotic_schema, style
 
@@ -10,4 +10,4 @@ with job(snakemake):
         fig = fig02_osmotic_schema.draw(
             netcdf.read(snakemake.input.material), snakemake.params.figure["temperatures"]
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

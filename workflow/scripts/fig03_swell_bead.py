@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig03_swell_bead, style
 
@@ -19,4 +19,4 @@ with job(snakemake):
             snakemake.params.case,
             radii,
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

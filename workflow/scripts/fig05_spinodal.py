@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig05_spinodal, style
 
@@ -13,4 +13,4 @@ with job(snakemake):
             dict(zip(cases, map(netcdf.read, snakemake.input.beads), strict=True)),
             cases,
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

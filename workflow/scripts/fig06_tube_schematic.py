@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig06_tube_schematic, style
 
@@ -12,4 +12,4 @@ with job(snakemake):
         fig = fig06_tube_schematic.draw(
             pulse.sel(ell=figure["ell"], tau=figure["tau"], method="nearest", tolerance=1e-12)
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig07_deswelling, style
 
@@ -14,4 +14,4 @@ with job(snakemake):
             netcdf.read(snakemake.input.curves),
             points,
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig08_profiles, style
 
@@ -13,4 +13,4 @@ with job(snakemake):
             pulse.sel(ell=figure["ell"], tau=figure["tau"], method="nearest", tolerance=1e-12),
             [position for block in published.values() for position in block["value"]],
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

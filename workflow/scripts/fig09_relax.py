@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig09_relax, style
 
@@ -16,4 +16,4 @@ with job(snakemake):
             {"ell": figure["published_ell"], "Phi1": published.get("front-phi", [])},
             published.get("A-values", []),
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig10_flow, style
 
@@ -13,4 +13,4 @@ with job(snakemake):
             figure["wall_time"],
             figure["lumen_time"],
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig11_flow_close, style
 
@@ -12,4 +12,4 @@ with job(snakemake):
             netcdf.read(snakemake.input.budget),
             snakemake.params.figure["wall_times"],
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig12_axial_flow, style
 
@@ -22,4 +22,4 @@ with job(snakemake):
             netcdf.read(snakemake.input.pulse),
             published | {"A": snakemake.params.figure["published_A"]},
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig13_osmotic, style
 
@@ -11,4 +11,4 @@ with job(snakemake):
         fig = fig13_osmotic.draw(
             dict(zip(gels, map(netcdf.read, snakemake.input.materials), strict=True))
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

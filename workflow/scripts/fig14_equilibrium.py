@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.figures import fig14_equilibrium, style
 
@@ -19,4 +19,4 @@ with job(snakemake):
         fig = fig14_equilibrium.draw(
             dict(zip(gels, map(netcdf.read, snakemake.input.materials), strict=True)), drawn
         )
-        style.save(fig, snakemake.output)
+        style.save(fig, snakemake.output, provenance)

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.tube import front_fit
 
@@ -14,4 +14,5 @@ with job(snakemake):
         snakemake.output[0],
         title="sharpness of the drying front",
         parameters={"front_fit": settings},
+        provenance=provenance,
     )

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.materials import from_config
     from gelpump.tube import lumen_pulse
@@ -19,4 +19,5 @@ with job(snakemake):
         snakemake.output[0],
         title="pulse of water in the lumen",
         parameters={"tube": params.tube, "gel": params.gel, "lumen_pulse": params.settings},
+        provenance=provenance,
     )

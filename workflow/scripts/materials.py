@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.materials import from_config, tables
 
@@ -13,4 +13,5 @@ with job(snakemake):
         snakemake.output[0],
         title=f"{gel.name}: osmotic pressure, equilibrium and spinodal curves",
         parameters={"gel": snakemake.params.gel, "tables": settings},
+        provenance=provenance,
     )

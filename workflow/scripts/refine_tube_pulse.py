@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.materials import from_config
     from gelpump.tube import production
@@ -21,4 +21,5 @@ with job(snakemake):
             "numerics": params.numerics,
             "subset": params.subset,
         },
+        provenance=provenance,
     )

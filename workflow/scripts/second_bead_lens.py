@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.bead import production
     from gelpump.materials import from_config
@@ -25,4 +25,5 @@ with job(snakemake):
         snakemake.output[0],
         title=f"{snakemake.wildcards.case} bead, LENS model, second solver",
         parameters={"case": params.case, "gel": params.gel, "numerics": params.numerics},
+        provenance=provenance,
     )

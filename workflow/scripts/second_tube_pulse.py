@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.materials import from_config
     from gelpump.second import tube
@@ -21,4 +21,5 @@ with job(snakemake):
         snakemake.output[0],
         title="tubes that collapse behind a pulse of heat, second solver",
         parameters={"tube": params.tube, "gel": params.gel, "numerics": params.numerics},
+        provenance=provenance,
     )

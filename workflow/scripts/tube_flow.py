@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.tube import views
 
@@ -12,4 +12,5 @@ with job(snakemake):
         snakemake.output[0],
         title=f"flow in a collapsing tube: {snakemake.wildcards.view}",
         parameters={"view": view},
+        provenance=provenance,
     )

@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump.figures import style, verification
     from gelpump.text import write_json, write_text
     from gelpump.verification import bead, table, tube
@@ -17,4 +17,5 @@ with job(snakemake):
         style.save(
             verification.draw(records),
             [snakemake.output.pdf, snakemake.output.png, snakemake.output.svg],
+            provenance,
         )

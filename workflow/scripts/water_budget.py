@@ -2,7 +2,7 @@
 
 from _helpers import job
 
-with job(snakemake):
+with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.tube import budget
 
@@ -11,4 +11,5 @@ with job(snakemake):
         snakemake.output[0],
         title="water shed by collapsing tubes",
         parameters={},
+        provenance=provenance,
     )

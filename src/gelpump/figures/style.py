@@ -9,6 +9,7 @@ import logging
 from collections.abc import Iterable, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import matplotlib
 import numpy as np
@@ -19,6 +20,9 @@ from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColor
 from matplotlib.figure import Figure
 
 from gelpump.netcdf import whole
+
+if TYPE_CHECKING:
+    from gelpump.provenance import Provenance
 
 # it reports on every table of every font that a PDF embeds
 logging.getLogger("fontTools").setLevel(logging.WARNING)
@@ -85,6 +89,10 @@ METADATA = {
 }
 
 
+# where each format keeps free text
+PROVENANCE = {"png": "Description", "pdf": "Keywords", "svg": "Description"}
+
+
 @contextmanager
 def styled():
     """The settings of this module, for drawing as well as for saving."""
@@ -145,8 +153,10 @@ def steps(
     return bar
 
 
-def save(fig: Figure, paths: Iterable[str | Path]) -> None:
+def save(fig: Figure, paths: Iterable[str | Path], provenance: "Provenance | None" = None) -> None:
     """Write ``fig`` to each path in the format of its suffix; a file is whole or not there.
+
+    ``provenance`` is put into the files' metadata.
 
     The layout is settled once, so that all formats show the same and none waits for it again.
     """
@@ -154,5 +164,6 @@ def save(fig: Figure, paths: Iterable[str | Path]) -> None:
     fig.set_layout_engine("none")
     for path in map(Path, paths):
         suffix = path.suffix.lstrip(".")
+        made_from = {PROVENANCE[suffix]: provenance.text()} if provenance else {}
         with whole(path) as partial:
-            fig.savefig(partial, format=suffix, metadata=METADATA[suffix])
+            fig.savefig(partial, format=suffix, metadata=METADATA[suffix] | made_from)

@@ -171,7 +171,7 @@ def _front(data) -> Iterator[Finding]:
         "section 3.6",
         f"the profile around Z_C keeps its shape while tau grows (ell = 0.25, from tau = {tau:g})",
         None,
-        float(data["refinement/tube_pulse"].Phi1_difference.sel(ell=0.25).max()),
+        float(data["refinement/tube_pulse"].Phi1_difference.max()),
         "data/front_fit.nc: profile_change",
         measure=float(late.max()),
         measured="largest change of Phi_1 at the same Z - Z_C:",

@@ -1,6 +1,6 @@
 """An RO-Crate 1.2 of the results, made from the manifest alone."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
 from typing import Any
 
@@ -54,9 +54,9 @@ def crate(manifest: Mapping[str, Any], sha256: str, size: int) -> dict[str, Any]
         {"@id": "#developers", "@type": "Organization", "name": "The gelpump developers"},
         {
             "@id": "#gelpump",
-            "@type": "SoftwareApplication",
+            "@type": "CreativeWork",  # an application must have a url
             "name": "gelpump",
-            "softwareVersion": manifest["gelpump"],
+            "version": manifest["gelpump"],
             "softwareRequirements": [f"{n} {v}" for n, v in manifest["packages"].items()],
         },
     ]
@@ -68,6 +68,11 @@ def crate(manifest: Mapping[str, Any], sha256: str, size: int) -> dict[str, Any]
 
 def _link(identifier: str) -> dict[str, str]:
     return {"@id": identifier}
+
+
+def _links(paths: Iterable[str]) -> dict[str, str] | list[dict[str, str]]:
+    links = [_link(_below_results(path)) for path in paths]
+    return links[0] if len(links) == 1 else links
 
 
 def _below_results(path: str) -> str:
@@ -87,13 +92,13 @@ def _file(path: str, output: Mapping[str, Any]) -> dict[str, Any]:
 
 def _action(name: str, job: Mapping[str, Any], manifest: Mapping[str, Any]) -> dict[str, Any]:
     outputs = (path for path, output in manifest["outputs"].items() if output["job"] == name)
-    inputs = (path for path in job["inputs"] if path in manifest["outputs"])
+    inputs = [path for path in job["inputs"] if path in manifest["outputs"]]
     return {
         "@id": f"#{name}",
         "@type": "CreateAction",
         "name": f"rule {job['rule']}",
         "description": f"code sha256:{job['code_digest']}, config sha256:{job['config_digest']}",
         "instrument": _link("#gelpump"),
-        "object": [_link(_below_results(path)) for path in inputs],
-        "result": [_link(_below_results(path)) for path in outputs],
+        "result": _links(outputs),
+        **({"object": _links(inputs)} if inputs else {}),
     }

@@ -1,10 +1,14 @@
-"""Do the datasets follow the CF conventions?"""
+"""Do the datasets follow the CF conventions?
+
+The checker takes a variable without units for a dimensionless one; here each says "1".
+"""
 
 from collections.abc import Iterable, Iterator
 
 from gelpump.verify.problem import Problem
 
 CHECKER = "cf:1.11"
+EVERYWHERE = ("units", "long_name")
 
 
 def problems(paths: Iterable[str]) -> list[Problem]:
@@ -21,8 +25,14 @@ def problems(paths: Iterable[str]) -> list[Problem]:
             found.append(Problem(path, "unreadable", str(failure)))
             continue
         groups, errors = suite.run_all(dataset, [CHECKER])[CHECKER]
+        messages = [
+            f"{name} has no {attribute}"
+            for name, variable in dataset.variables.items()
+            for attribute in EVERYWHERE
+            if variable.dtype is not str and attribute not in variable.ncattrs()
+        ]
         dataset.close()
-        messages = [message for group in groups for message in _messages(group)]
+        messages += [message for group in groups for message in _messages(group)]
         messages += [f"{check}: {error[0]}" for check, error in errors.items()]
         found += [Problem(path, CHECKER, message) for message in messages]
     return found

@@ -1,7 +1,12 @@
 # What all rules share, beginning with the checked configuration.
+import json
+from pathlib import Path
+from types import SimpleNamespace
+
 import yaml
 
 from gelpump import config as checked
+from gelpump import provenance
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as stream:
     schema = yaml.safe_load(stream)
@@ -39,6 +44,30 @@ GEL = [
 ]
 
 
+def config_blocks(wildcards):
+    """Digest of what each job of the manifest takes from the configuration now.
+
+    None if its rule is gone, or takes something else.  Only called when verify is asked for.
+    """
+    manifest = Path("results/manifest.json")
+    if not manifest.exists():
+        return {}
+    jobs = json.loads(manifest.read_text(encoding="utf-8"))["jobs"]
+    return {name: config_block(job) for name, job in jobs.items()}
+
+
+def config_block(job):
+    made_by = getattr(rules, job["rule"], None)
+    if made_by is None:
+        return None
+    wildcards = SimpleNamespace(**job["wildcards"])
+    try:
+        block = {k: v(wildcards) if callable(v) else v for k, v in made_by.params.items()}
+    except KeyError:  # the configuration has no such case, gel or view any more
+        return None
+    return provenance.digest(block)
+
+
 def published(*claims):
     """What the paper prints or draws for these claims; a claim without an entry is left out."""
     return {claim: config["published"][claim] for claim in claims if claim in config["published"]}
@@ -50,3 +79,7 @@ def bead_case(wildcards):
 
 def bead_gel(wildcards):
     return config["gels"][config["beads"][wildcards.case]["gel"]]
+
+
+def tube_gel(wildcards):
+    return config["gels"][config["tube"]["gel"]]

@@ -34,10 +34,6 @@ wildcard_constraints:
     view="[a-z][a-z_]*",
 
 
-def tube_gel(wildcards):
-    return config["gels"][config["tube"]["gel"]]
-
-
 rule deswelling_map:
     input:
         src=modules(*UNIFORM_TUBE),

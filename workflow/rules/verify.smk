@@ -1,10 +1,4 @@
 # What a build consists of, and whether it is still that.
-import json
-from pathlib import Path
-from types import SimpleNamespace
-
-from gelpump import provenance
-
 PRODUCTS = [
     *MATERIALS,
     *BEADS,
@@ -32,30 +26,6 @@ REFERENCE = {
     "quantities": "workflow/reference/quantities.yaml",
     "values": "workflow/reference/values.json",
 }
-
-
-def config_blocks(wildcards):
-    """Digest of what each job of the manifest takes from the configuration now.
-
-    None if its rule is gone, or takes something else.  Only called when verify is asked for.
-    """
-    manifest = Path("results/manifest.json")
-    if not manifest.exists():
-        return {}
-    jobs = json.loads(manifest.read_text(encoding="utf-8"))["jobs"]
-    return {name: config_block(job) for name, job in jobs.items()}
-
-
-def config_block(job):
-    made_by = getattr(rules, job["rule"], None)
-    if made_by is None:
-        return None
-    wildcards = SimpleNamespace(**job["wildcards"])
-    try:
-        block = {k: v(wildcards) if callable(v) else v for k, v in made_by.params.items()}
-    except KeyError:  # the configuration has no such case, gel or view any more
-        return None
-    return provenance.digest(block)
 
 
 rule manifest:

@@ -1,6 +1,7 @@
 """Do the datasets follow the CF conventions?
 
-The checker takes a variable without units for a dimensionless one; here each says "1".
+The checker takes a variable without units for a dimensionless one; here each says "1", except
+flags, which are not quantities.
 """
 
 from collections.abc import Iterable, Iterator
@@ -8,7 +9,6 @@ from collections.abc import Iterable, Iterator
 from gelpump.verify.problem import Problem
 
 CHECKER = "cf:1.11"
-EVERYWHERE = ("units", "long_name")
 
 
 def problems(paths: Iterable[str]) -> list[Problem]:
@@ -26,10 +26,9 @@ def problems(paths: Iterable[str]) -> list[Problem]:
             continue
         groups, errors = suite.run_all(dataset, [CHECKER])[CHECKER]
         messages = [
-            f"{name} has no {attribute}"
+            f"{name} has no units"
             for name, variable in dataset.variables.items()
-            for attribute in EVERYWHERE
-            if variable.dtype is not str and attribute not in variable.ncattrs()
+            if variable.dtype is not str and not {"units", "flag_values"} & {*variable.ncattrs()}
         ]
         dataset.close()
         messages += [message for group in groups for message in _messages(group)]

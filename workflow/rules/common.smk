@@ -46,23 +46,6 @@ GEL = [
 ]
 
 
-def published(*claims):
-    """What the paper prints or draws for these claims; a claim without an entry is left out."""
-    return {claim: config["published"][claim] for claim in claims if claim in config["published"]}
-
-
-def bead_case(wildcards):
-    return config["beads"][wildcards.case]
-
-
-def bead_gel(wildcards):
-    return config["gels"][config["beads"][wildcards.case]["gel"]]
-
-
-def tube_gel(wildcards):
-    return config["gels"][config["tube"]["gel"]]
-
-
 def config_blocks(wildcards):
     """Digest of what each job of the manifest takes from the configuration now.
 
@@ -85,3 +68,20 @@ def config_block(job):
     except KeyError:  # the configuration has no such case, gel or view any more
         return None
     return provenance.digest(block)
+
+
+def published(*claims):
+    """What the paper prints or draws for these claims; a claim without an entry is left out."""
+    return {claim: config["published"][claim] for claim in claims if claim in config["published"]}
+
+
+def bead_case(wildcards):
+    return config["beads"][wildcards.case]
+
+
+def bead_gel(wildcards):
+    return config["gels"][config["beads"][wildcards.case]["gel"]]
+
+
+def tube_gel(wildcards):
+    return config["gels"][config["tube"]["gel"]]

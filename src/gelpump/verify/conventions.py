@@ -1,4 +1,8 @@
-"""Do the datasets follow the CF conventions?"""
+"""Do the datasets follow the CF conventions?
+
+The checker takes a variable without units for a dimensionless one; here each says "1", except
+flags, which are not quantities.
+"""
 
 from collections.abc import Iterable, Iterator
 
@@ -21,8 +25,13 @@ def problems(paths: Iterable[str]) -> list[Problem]:
             found.append(Problem(path, "unreadable", str(failure)))
             continue
         groups, errors = suite.run_all(dataset, [CHECKER])[CHECKER]
+        messages = [
+            f"{name} has no units"
+            for name, variable in dataset.variables.items()
+            if variable.dtype is not str and not {"units", "flag_values"} & {*variable.ncattrs()}
+        ]
         dataset.close()
-        messages = [message for group in groups for message in _messages(group)]
+        messages += [message for group in groups for message in _messages(group)]
         messages += [f"{check}: {error[0]}" for check, error in errors.items()]
         found += [Problem(path, CHECKER, message) for message in messages]
     return found

@@ -63,12 +63,12 @@ def manifest(
 
 
 def by_output(
-    records: Iterable[Mapping[str, Any]], found: Mapping[str, str]
+    records: Iterable[Mapping[str, Any]], found: Mapping[str, str | None]
 ) -> dict[str, Mapping[str, Any]]:
-    """The record of the job that made each output; of several, one that made it as it is."""
+    """The record of the job that made each file found; of several, one that made it as it is."""
     made: dict[str, Mapping[str, Any]] = {}
     for record in records:
         for path, output in record["outputs"].items():
-            if path not in made or output["sha256"] == found.get(path):
+            if path in found and (path not in made or output["sha256"] == found[path]):
                 made[path] = record
     return made

@@ -17,3 +17,13 @@ def hht() -> EnergyBasedGel:
 @pytest.fixture(scope="session")
 def anb() -> EnergyBasedGel:
     return EnergyBasedGel("ANB", -12.947, 17.92, 0.04496, -0.0569, 100.0, (290.0, 320.0))
+
+
+SLOWER = ("hostile", "verification", "second", "test_verify.py")
+
+
+def pytest_collection_modifyitems(items):
+    """The slower evidence is asked for by name, so that the first test run stays short."""
+    for item in items:
+        if any(part in SLOWER for part in item.path.parts):
+            item.add_marker(pytest.mark.evidence)

@@ -168,7 +168,7 @@ def test_fast_heat_leaves_the_end_to_uniform_deswelling():
 
 def test_slopes_of_the_flux_are_its_derivatives():
     """What Newton's iteration is given, on both sides of the front and at it."""
-    family = slender._Family(Tubes(0.5, M=0.3, Pi_ratio=3.0, Phi_inf=4.0), HEAT, (8, 6), 12.0, 1e-9)
+    family = slender.Family(Tubes(0.5, M=0.3, Pi_ratio=3.0, Phi_inf=4.0), HEAT, (8, 6), 12.0, 1e-9)
     X = family.faces(0.1, family.front(0.1))
     stretch = np.linspace(0.7, 1.0, 14)[np.newaxis]
     _, (left, right), _, (face_left, face_right) = family.inner_faces(stretch, X)

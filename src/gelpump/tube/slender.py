@@ -91,14 +91,14 @@ def solve(
     `tolerance` bounds the local error of Phi_1 in a time step, `order` (2 or 3) is that of the time
     steps, `reach` the distance from the front to the end of the domain in units of w (Phi_1 = 1
     beyond). The defaults give Phi_1 to 1e-3 in the maximum norm for Lewis numbers up to some
-    hundreds; above, `_Family.limit` costs accuracy and more cells behind the front are needed.
+    hundreds; above, `Family.limit` costs accuracy and more cells behind the front are needed.
     """
     tau = np.atleast_1d(np.asarray(tau, float))
     if not (tau[0] > 0 and (np.diff(tau) > 0).all() and np.isfinite(tau).all()):
         raise ValueError(f"tau = {tau} is not allowed: positive and increasing")
     if heat.front(0.0) != 0 or not (np.diff(heat.front(tau), prepend=0.0) > 0).all():
         raise ValueError("heat.front is not allowed: it must start at Z = 0 and move ahead")
-    family = _Family(tubes, heat, cells, reach, NEWTON_SHARE * tolerance)
+    family = Family(tubes, heat, cells, reach, NEWTON_SHARE * tolerance)
     times = np.sqrt(tau)
     lost = np.zeros(family.tubes)
     rates = [lost]
@@ -132,8 +132,11 @@ def solve(
     return dataset
 
 
-class _Family:
-    """The semi-discrete equations; arrays are (tube, cell) or (tube, face), X in units of w."""
+class Family:
+    """The semi-discrete equations; arrays are (tube, cell) or (tube, face), X in units of w.
+
+    Public for the studies of known solutions, which give it sources and starts of their own.
+    """
 
     def __init__(self, tubes, heat, cells, reach, newton_tolerance):
         self.behind, ahead = cells
@@ -156,13 +159,16 @@ class _Family:
     # rates of change enter, lambda V and the faces X_f.
 
     def initial(self):
+        """The state at t = 0, undisturbed."""
         shape = (self.tubes, self.cells)
-        return self._pack(np.ones(shape), np.zeros((self.tubes, self.cells + 1)))
+        return self.pack(np.ones(shape), np.zeros((self.tubes, self.cells + 1)))
 
-    def _pack(self, stretch, X):
+    def pack(self, stretch, X):
+        """The state: lambda, lambda V and X_f in one row."""
         return np.concatenate([a.ravel() for a in (stretch, stretch * np.diff(X), X)])
 
-    def _unpack(self, state):
+    def unpack(self, state):
+        """Lambda, lambda V and X_f of a state, each (tube, ...)."""
         parts = np.split(state, [self.tubes * self.cells, 2 * self.tubes * self.cells])
         return [part.reshape(self.tubes, -1) for part in parts]
 
@@ -240,8 +246,8 @@ class _Family:
 
     def advance(self, t, guess, alpha, history):
         """One implicit step in t = sqrt(tau); d/dt is alpha times the new value plus history."""
-        stretch, _, X = self._unpack(guess)
-        _, content_history, X_history = self._unpack(history)
+        stretch, _, X = self.unpack(guess)
+        _, content_history, X_history = self.unpack(history)
         Z_C = self.front(t)
         X_C = X[:, self.behind, None] if X.any() else Z_C  # nothing to extrapolate at first
         rate = 2 * t / self.w**2  # dtau/dt in units of w^2
@@ -278,7 +284,7 @@ class _Family:
             if previous is not None:
                 self.contraction = np.clip(change / previous, 0.05, 1.0)
             if change * self.contraction < self.newton_tolerance:
-                return self._pack(stretch, self.faces(t, X_C))
+                return self.pack(stretch, self.faces(t, X_C))
             if previous is not None and change > 2 * previous:
                 break
             previous = change
@@ -286,20 +292,20 @@ class _Family:
 
     def error_norm(self, state, difference):
         """As a change of Phi_1; a shift of X_C by w changes it by a tenth at fixed Z."""
-        stretch, _, _ = self._unpack(state)
-        d_stretch, _, d_X = self._unpack(difference)
+        stretch, _, _ = self.unpack(state)
+        d_stretch, _, d_X = self.unpack(difference)
         return max(
             np.abs(3 * d_stretch / stretch**4).max(), 0.1 * np.abs(d_X[:, self.behind]).max()
         )
 
     def loss_rate(self, step: Step):
         """Rate in t at which water leaving through the walls shortens the tubes, in units of w."""
-        stretch, _, X = self._unpack(step.solution)
+        stretch, _, X = self.unpack(step.solution)
         return (2 * step.time / self.w**2 * self.source(stretch)[0] * np.diff(X)).sum(axis=1)
 
     def profile(self, t, step: Step, lost):
         """What the dataset holds of one time; `lost` is the integral of `loss_rate`."""
-        stretch, _, X = self._unpack(step.at(t))
+        stretch, _, X = self.unpack(step.at(t))
         V, Phi = np.diff(X), stretch**-3.0
         flux, _, face, _ = self.inner_faces(stretch, X)
         Z_face = self.w * np.hstack([np.zeros_like(V[:, :1]), np.cumsum(stretch * V, axis=1)])

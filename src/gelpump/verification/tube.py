@@ -13,7 +13,7 @@ Phi leaves a remainder H,
     H = Phi_tau + (D/Phi) Phi_Z^2 - (1/3) Phi^{-1/3} Phi_Z Integral_0^Z Phi^{-2/3} Phi_tau du
         - F - (D Phi_Z)_Z ,
 
-which the production solver (``slender._Family``: its mesh, fluxes, Jacobian, front and time steps)
+which the production solver (``slender.Family``: its mesh, fluxes, Jacobian, front and time steps)
 gets as a source beside its own: S + lambda^4 H/3.  That it then returns Phi verifies the passage
 from the printed equation to the material one as well, integral and jump included.
 
@@ -125,7 +125,7 @@ class Manufactured:
         raise RuntimeError("Newton's iteration for the material points does not converge")
 
 
-class ForcedFamily(slender._Family):
+class ForcedFamily(slender.Family):
     """One tube of production, with the remainder of a manufactured solution as a further source."""
 
     def __init__(self, problem: Manufactured, tubes, cells, tolerance):
@@ -165,7 +165,7 @@ def manufactured(cells: tuple[int, int], tolerance: float):
     problem = Manufactured(TUBE, HEAT)
     family = ForcedFamily(problem, TUBE, cells, tolerance)
     last, steps = _march(family, family.initial(), np.sqrt(problem.end), tolerance)
-    stretch, _, X = family._unpack(last.solution)
+    stretch, _, X = family.unpack(last.solution)
     front = family.inner_faces(stretch, X)[2][0, family.behind - 1] ** -3.0
     Phi = np.append(stretch[0] ** -3.0, front)
     exact = np.append(family.exact(X, last.time)[1], 1 + problem._shape(problem.end)[2])
@@ -207,7 +207,7 @@ def relaxation(cells: tuple[int, int], tolerance: float) -> float:
     """
     tubes = Tubes([0.5, 0.5], 0.1, M=0.3, Pi_ratio=1.0, Phi_inf=1.0)
     w, D = tubes.wall_length[0], 1.0 + 4 * 0.3 / 3
-    family = slender._Family(tubes, Standing(w), cells, 3.0, slender.NEWTON_SHARE * tolerance)
+    family = slender.Family(tubes, Standing(w), cells, 3.0, slender.NEWTON_SHARE * tolerance)
     X = family.faces(0.0, family.front(0.0) * np.ones((2, 1)))
     k = np.pi / X[0, -1]
     rate = D * (k**2 + 1) / w**2
@@ -215,10 +215,10 @@ def relaxation(cells: tuple[int, int], tolerance: float) -> float:
     def mode(X):  # its mean over each cell
         return np.diff(np.sin(k * X)) / np.diff(k * X)
 
-    start = family._pack(1 + AMPLITUDE * np.array([[1.0], [-1.0]]) * mode(X), X)
+    start = family.pack(1 + AMPLITUDE * np.array([[1.0], [-1.0]]) * mode(X), X)
     with np.errstate(over="ignore"):  # `limit` divides by the drift of the faces, here none
         last, _ = _march(family, start, np.sqrt(1 / rate), tolerance)
-    stretch, _, X = family._unpack(last.solution)
+    stretch, _, X = family.unpack(last.solution)
     V = np.diff(X)
     left = ((stretch - 1) * mode(X) * V).sum(axis=1) / (mode(X) ** 2 * V).sum(axis=1)
     return abs(-np.log((left[0] - left[1]) / (2 * AMPLITUDE)) - 1.0)

@@ -68,7 +68,9 @@ def closure(file: Path) -> frozenset[Path]:
 
 def declared_modules(clone) -> dict[str, set[str]]:
     """Files under src that each rule of a full build lists among its inputs."""
-    result = clone.snakemake("--dry-run", "--forceall", "all", "verify", "renew_reference")
+    result = clone.snakemake(
+        "--dry-run", "--forceall", "all", "verify", "renew_reference", "renew_map"
+    )
     assert result.returncode == 0, result.stdout + result.stderr
     declared, rule = {}, None
     for line in (result.stdout + result.stderr).splitlines():

@@ -70,6 +70,12 @@ def config_block(job):
     return provenance.digest(block)
 
 
+def ends_of_the_build(wildcards):
+    """Jobs that only `all` asks for: they make what the manifest does not list."""
+    ends = set(rules.all.input) - set(PRODUCTS)
+    return sorted(rule.name for rule in workflow.rules if ends & set(map(str, rule.output)))
+
+
 def published(*claims):
     """What the paper prints or draws for these claims; a claim without an entry is left out."""
     return {claim: config["published"][claim] for claim in claims if claim in config["published"]}

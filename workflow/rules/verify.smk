@@ -85,3 +85,20 @@ rule renew_reference:
         blocks=config_blocks,
     script:
         "../scripts/renew_reference.py"
+
+
+# On purpose only, on a quiet machine after a build of everything: renews the seconds that readers
+# are shown, the README's map and verdict, and its picture.
+rule renew_map:
+    input:
+        src=modules("netcdf", "text", "build_map", "claims/__init__", "claims/table"),
+    log:
+        "results/logs/renew_map.log",
+    params:
+        ends=ends_of_the_build,
+        seconds="workflow/reference/seconds.json",
+        readme="README.md",
+        picture="results/figures/fig06_tube_schematic.png",
+        shown="docs/pump.png",
+    script:
+        "../scripts/renew_map.py"

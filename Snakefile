@@ -29,6 +29,7 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/evidence.smk"
+include: "workflow/rules/report.smk"
 include: "workflow/rules/verify.smk"
 
 

@@ -1,0 +1,332 @@
+"""The content of a report, gathered from what a build has made: one source for page and article.
+
+Nothing here is typed: verdicts, deviations and digests are those of the files in ``results``.
+Captions are the templates of ``workflow/report``, which Snakemake's own report takes too.
+"""
+
+import json
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+from gelpump.claims.table import counts, number
+from gelpump.report.figures import DRAWINGS
+from gelpump.report.notation import Text, from_plain, from_rst
+
+NOTHING = "–"
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One statement of the paper; numbers are printed to the digits that uncertainty leaves.
+
+    number: of the claim in the table, from 1.  deviation: |computed - published| / |published|,
+    or None.
+    """
+
+    number: int
+    id: str
+    where: str
+    statement: Text
+    published: str
+    computed: str
+    measured: Text
+    deviation: float | None
+    status: str
+    evidence: str
+
+    @property
+    def deviation_text(self) -> str:
+        """The deviation in per cent, to two digits."""
+        return NOTHING if self.deviation is None else percent(self.deviation)
+
+    @property
+    def figures(self) -> set[int]:
+        """Numbers of the figures that the claim is about."""
+        return set(figure_numbers(self.where))
+
+
+@dataclass(frozen=True)
+class Disagreement:
+    """An entry of the ledger."""
+
+    id: str
+    where: str
+    printed: Text
+    follows: Text
+    measured: Text
+    size: str
+    allowed: str
+    found: bool
+    code: str
+    evidence: str
+
+    @property
+    def figures(self) -> set[int]:
+        """Numbers of the figures that the entry is about."""
+        return set(figure_numbers(self.where))
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure with all that is said about it.
+
+    name: of its rule.  number: as in the paper, None if it is ours.  caption: paragraphs.  seconds:
+    CPU time of its rule from existing data, or None if it was not measured.  files: path by suffix.
+    numbers: its key numbers, rows of ``tables/figure_numbers.json``.
+    """
+
+    name: str
+    number: int | None
+    title: str
+    alt: str
+    caption: list[Text]
+    data: list[str]
+    files: dict[str, str]
+    seconds: float | None
+    claims: list[Claim]
+    ledger: list[Disagreement]
+    numbers: list[dict[str, Any]] = field(default_factory=list)
+
+    @property
+    def label(self) -> str:
+        """What it is called: "Figure 3"."""
+        return f"Figure {self.number}" if self.number else "Verification"
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of the paper; cells as in its CSV file."""
+
+    name: str
+    number: int
+    caption: list[Text]
+    heading: list[str]
+    rows: list[list[str]]
+    files: dict[str, str]
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """A dataset, with the digests of its bytes and of what it was made from."""
+
+    path: str
+    size: int
+    sha256: str
+    title: str
+    code: str
+    config: str
+
+
+@dataclass(frozen=True)
+class Content:
+    """Everything that page and article tell.
+
+    verdict: claims by status.  verification and cross_check: as in their JSON files.  code_digest:
+    of the code of all datasets.  packages: versions by name.  citation: the parsed CITATION.cff.
+    """
+
+    verdict: dict[str, int]
+    claims: list[Claim]
+    ledger: list[Disagreement]
+    figures: list[Figure]
+    verification_figure: Figure
+    tables: list[Table]
+    verification: list[dict[str, Any]]
+    cross_check: list[dict[str, Any]]
+    datasets: list[Dataset]
+    version: str
+    config_digest: str
+    code_digest: str
+    packages: dict[str, str]
+    citation: dict[str, Any]
+
+    @property
+    def disagreements(self) -> int:
+        """How many suspected disagreements were found."""
+        return sum(entry.found for entry in self.ledger)
+
+
+def figure_numbers(where: str) -> Iterable[int]:
+    """The numbers of the figures that a place in the paper names: "figures 10, 11", "figure 7a"."""
+    for listed in re.findall(r"figures? ([\d\w]+(?:(?:, | and )\d+[a-z]?\b)*)", where):
+        yield from map(int, re.findall(r"\d+", listed))
+
+
+def percent(share: float) -> str:
+    """A share as per cent, to two digits."""
+    value = 100 * share
+    if value and abs(value) < 0.001:
+        return f"{value:.0e} %".replace("e-0", "e-")
+    return f"{value:.2g} %" if abs(value) < 100 else f"{value:.0f} %"
+
+
+def gather(
+    config: Mapping[str, Any],
+    figures: Mapping[str, Mapping[str, Any]],
+    tables: Mapping[str, Mapping[str, Any]],
+    digests: Mapping[str, str],
+    results: Path = Path("results"),
+    seconds: Path = Path("workflow/reference/seconds.json"),
+    citation: Path = Path("CITATION.cff"),
+) -> Content:
+    """The content of the build in ``results``.
+
+    figures and tables: by the name of their rules, what `rules/report.smk` takes from these:
+    ``data``, ``files``, ``caption`` and ``params``.  digests: SHA-256 of the rule's inputs by path.
+    A figure that has no entry in ``seconds`` has no time.  OSError if a file is missing, ValueError
+    or KeyError if one is not what it should be.
+    """
+    import yaml
+
+    import gelpump
+    from gelpump.provenance import digest, packages
+
+    claims = [
+        claim(rank, entry) for rank, entry in enumerate(_read(results / "claims.json"), start=1)
+    ]
+    ledger = [disagreement(entry) for entry in _read(results / "ledger.json")]
+    times = _read(seconds) if seconds.exists() else {}
+    numbers = results / "tables/figure_numbers.json"
+    key_numbers = _read(numbers) if numbers.exists() else []
+    drawn = {
+        name: _figure(name, rule, config, claims, ledger, times, key_numbers)
+        for name, rule in figures.items()
+    }
+    datasets = [
+        _dataset(Path(path), sha256) for path, sha256 in digests.items() if path.endswith(".nc")
+    ]
+    return Content(
+        verdict=counts(_read(results / "claims.json")),
+        claims=claims,
+        ledger=ledger,
+        verification_figure=drawn.pop("verification"),
+        figures=list(drawn.values()),
+        tables=[_table(name, rule, config) for name, rule in tables.items()],
+        verification=_read(results / "verification.json"),
+        cross_check=_read(results / "cross_check.json"),
+        datasets=datasets,
+        version=gelpump.__version__,
+        config_digest=digest(dict(config)),
+        code_digest=digest({each.path: each.code for each in datasets}),
+        packages=packages(),
+        citation=yaml.safe_load(citation.read_text(encoding="utf-8")),
+    )
+
+
+def claim(rank: int, entry: Mapping[str, Any]) -> Claim:
+    """A claim of ``claims.json`` for people."""
+    return Claim(
+        number=rank,
+        id=entry["id"],
+        where=entry["where"],
+        statement=from_plain(entry["statement"]),
+        published=_published(entry),
+        computed=_computed(entry),
+        measured=from_plain(entry["measured"].rstrip(": ")),
+        deviation=entry["relative_difference"],
+        status=entry["status"],
+        evidence=entry["evidence"],
+    )
+
+
+def _published(entry):
+    text = number(entry["published"])
+    drawn = entry["published_in_figure"]
+    return text if drawn is None else f"{text} (figure: {number(drawn)})"
+
+
+def _computed(entry):
+    """The number, or for a statement whether it holds and the number that decided."""
+    if isinstance(entry["computed"], bool) or entry["computed"] is None:
+        holds = {True: "holds", False: "does not hold", None: ""}[entry["computed"]]
+        measure = number(entry["measure"], entry["uncertainty"]) if entry["measured"] else ""
+        return ": ".join(part for part in (holds, measure) if part) or NOTHING
+    return number(entry["computed"], entry["uncertainty"])
+
+
+def disagreement(entry: Mapping[str, Any]) -> Disagreement:
+    """An entry of ``ledger.json`` for people."""
+    return Disagreement(
+        id=entry["id"],
+        where=entry["where"],
+        printed=from_plain(entry["printed"]),
+        follows=from_plain(entry["follows"]),
+        measured=from_plain(entry["measured"]),
+        size=numbers(entry["size"]),
+        allowed=numbers(entry["allowed"]),
+        found=entry["verdict"] == "disagreement",
+        code=entry["code"],
+        evidence=entry["evidence"],
+    )
+
+
+def numbers(values: float | Sequence[float]) -> str:
+    """One number or several, to four digits."""
+    return ", ".join(f"{value:.4g}" for value in (values if isinstance(values, list) else [values]))
+
+
+def caption(template: str | Path, config: Mapping[str, Any], params: Mapping[str, Any]):
+    """The paragraphs of a caption, its template filled as Snakemake's report fills it."""
+    import jinja2
+
+    text = Path(template).read_text(encoding="utf-8")
+    strict = jinja2.Environment(undefined=jinja2.StrictUndefined)
+    job = SimpleNamespace(config=config, params=SimpleNamespace(**params))
+    return from_rst(strict.from_string(text).render(snakemake=job))
+
+
+def _figure(name, rule, config, claims, ledger, times, key_numbers):
+    found = re.match(r"fig(\d+)_", name)
+    rank = int(found[1]) if found else None
+    drawing = DRAWINGS[name]
+    return Figure(
+        name=name,
+        number=rank,
+        title=drawing.title,
+        alt=drawing.alt,
+        caption=caption(rule["caption"], config, rule["params"]),
+        data=list(rule["data"]),
+        files=dict(rule["files"]),
+        seconds=times.get(name),
+        claims=[each for each in claims if rank in each.figures],
+        ledger=[each for each in ledger if rank in each.figures],
+        numbers=[row for row in key_numbers if row.get("figure") in (name, rank)],
+    )
+
+
+def _table(name, rule, config):
+    import csv
+
+    with open(rule["files"]["csv"], encoding="utf-8", newline="") as stream:
+        heading, *rows = csv.reader(stream)
+    return Table(
+        name=name,
+        number=int(re.match(r"table(\d+)_", name)[1]),
+        caption=caption(rule["caption"], config, rule["params"]),
+        heading=heading,
+        rows=rows,
+        files=dict(rule["files"]),
+    )
+
+
+def _dataset(path, sha256):
+    import netCDF4
+
+    with netCDF4.Dataset(path) as dataset:
+        attributes = dataset.__dict__
+    return Dataset(
+        path=path.as_posix(),
+        size=path.stat().st_size,
+        sha256=sha256,
+        title=attributes["title"],
+        code=attributes["code_version"].rpartition("sha256:")[2],
+        config=attributes["config_digest"].rpartition("sha256:")[2],
+    )
+
+
+def _read(path):
+    return json.loads(Path(path).read_text(encoding="utf-8"))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from gelpump.tube.deswelling import Tubes, deswelling_curve, deswelling_time
+from gelpump.tube.deswelling import Tubes, deswelling_curve, deswelling_time, response_time
 
 
 def rate(Phi, tube, reswelling):
@@ -86,3 +86,35 @@ def test_no_change_has_no_time():
         deswelling_time(Tubes(0.5, Phi_inf=1.0))
     with pytest.raises(ValueError, match="tau = -1"):
         deswelling_curve(-1.0, Tubes(0.5))
+
+
+LINEAR = {"M": 1.0, "Pi_ratio": 1.0, "Phi_inf": 2.0}
+
+
+def test_seconds_of_known_tubes():
+    """For a_1 = 1 mm, 1e-15 m^2, 1e-3 Pa s and 1e5 Pa, mu_l (a_1/0.1)^2/(k Pi_00) is 1000 s."""
+    t = response_time(1e-3 * np.array([0.25, 0.5, 0.75]), 1e-3, 1e-15, 1e-3, 1e5, **LINEAR)
+    known = 1e3 * np.array([4.5365139990e-4, 2.0162284440e-4, 5.0405711100e-5])
+    assert np.allclose(t, known, rtol=1e-9, atol=0)
+
+
+def test_seconds_depend_on_the_thickness_of_the_wall_only():
+    thick = response_time(2.0, 5.0, 1e-15, 1e-3, 1e5, **LINEAR)
+    assert np.isclose(response_time(7.0, 10.0, 1e-15, 1e-3, 1e5, **LINEAR), thick, rtol=1e-12)
+
+
+def test_seconds_of_many_designs_equal_those_of_each():
+    random = np.random.default_rng(2)
+    count = 40_001  # more than two blocks
+    a_0, M, Phi_inf = random.uniform(0.1, 0.9, count), random.uniform(0, 5, count), 3.0
+    t = response_time(a_0, 1.0, 1e-15, 1e-3, 1e5, M=M, Pi_ratio=0.7, Phi_inf=Phi_inf)
+    for i in (0, 20_000, count - 1):
+        one = response_time(a_0[i], 1.0, 1e-15, 1e-3, 1e5, M=M[i], Pi_ratio=0.7, Phi_inf=Phi_inf)
+        assert t[i] == one
+
+
+def test_seconds_need_positive_properties():
+    with pytest.raises(ValueError, match="permeability = -1 is not allowed: permeability > 0"):
+        response_time(0.5, 1.0, [1e-15, -1.0], 1e-3, 1e5, **LINEAR)
+    with pytest.raises(ValueError, match=r"ell = 1\.5 is not allowed"):
+        response_time(1.5, 1.0, 1e-15, 1e-3, 1e5, **LINEAR)

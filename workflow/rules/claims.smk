@@ -51,6 +51,7 @@ rule claims:
             "results/tables/claims.md",
             caption="../report/claims.rst",
             category="Verdicts",
+            labels={"shows": "statements of the paper, checked"},
         ),
     log:
         "results/logs/claims.log",
@@ -85,6 +86,7 @@ rule ledger:
             "results/tables/ledger.md",
             caption="../report/ledger.rst",
             category="Verdicts",
+            labels={"shows": "where the paper disagrees"},
         ),
     log:
         "results/logs/ledger.log",

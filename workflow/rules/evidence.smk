@@ -71,6 +71,7 @@ rule cross_check:
             "results/tables/cross_check.md",
             caption="../report/cross_check.rst",
             category="Evidence",
+            labels={"shows": "a second solver"},
         ),
     log:
         "results/logs/cross_check.log",
@@ -114,6 +115,7 @@ rule verification:
             "results/tables/verification.md",
             caption="../report/verification.rst",
             category="Evidence",
+            labels={"shows": "known solutions, table"},
         ),
         pdf="results/figures/verification.pdf",
         svg="results/figures/verification.svg",
@@ -121,6 +123,7 @@ rule verification:
             "results/figures/verification.png",
             caption="../report/verification.rst",
             category="Evidence",
+            labels={"shows": "known solutions, errors"},
         ),
     log:
         "results/logs/verification.log",

@@ -33,6 +33,8 @@ rule fig01_lens_schematic:
             "results/figures/fig01_lens_schematic.png",
             caption="../report/fig01_lens_schematic.rst",
             category="Figures",
+            subcategory="Gel and model",
+            labels={"figure": "1", "shows": "how LENS splits a deformation"},
         ),
     log:
         "results/logs/fig01_lens_schematic.log",
@@ -55,6 +57,8 @@ rule fig02_osmotic_schema:
             "results/figures/fig02_osmotic_schema.png",
             caption="../report/fig02_osmotic_schema.rst",
             category="Figures",
+            subcategory="Gel and model",
+            labels={"figure": "2", "shows": "osmotic pressure either side of T_C"},
         ),
     log:
         "results/logs/fig02_osmotic_schema.log",
@@ -84,6 +88,8 @@ rule fig03_swell_bead:
             "results/figures/fig03_swell_bead.png",
             caption="../report/fig03_swell_bead.rst",
             category="Figures",
+            subcategory="Beads",
+            labels={"figure": "3", "shows": "a bead swells"},
         ),
     log:
         "results/logs/fig03_swell_bead.log",
@@ -115,6 +121,8 @@ rule fig04_dry_bead:
             "results/figures/fig04_dry_bead.png",
             caption="../report/fig04_dry_bead.rst",
             category="Figures",
+            subcategory="Beads",
+            labels={"figure": "4", "shows": "a bead dries"},
         ),
     log:
         "results/logs/fig04_dry_bead.log",
@@ -142,6 +150,8 @@ rule fig05_spinodal:
             "results/figures/fig05_spinodal.png",
             caption="../report/fig05_spinodal.rst",
             category="Figures",
+            subcategory="Beads",
+            labels={"figure": "5", "shows": "beads and the spinodal"},
         ),
     log:
         "results/logs/fig05_spinodal.log",
@@ -171,6 +181,8 @@ rule fig06_tube_schematic:
             "results/figures/fig06_tube_schematic.png",
             caption="../report/fig06_tube_schematic.rst",
             category="Figures",
+            subcategory="Tubes",
+            labels={"figure": "6", "shows": "a tube, partly collapsed"},
         ),
     log:
         "results/logs/fig06_tube_schematic.log",
@@ -194,6 +206,8 @@ rule fig07_deswelling:
             "results/figures/fig07_deswelling.png",
             caption="../report/fig07_deswelling.rst",
             category="Figures",
+            subcategory="Tubes",
+            labels={"figure": "7", "shows": "tubes heated everywhere at once"},
         ),
     log:
         "results/logs/fig07_deswelling.log",
@@ -223,6 +237,8 @@ rule fig08_profiles:
             "results/figures/fig08_profiles.png",
             caption="../report/fig08_profiles.rst",
             category="Figures",
+            subcategory="Tubes",
+            labels={"figure": "8", "shows": "a pulse of heat travels along a tube"},
         ),
     log:
         "results/logs/fig08_profiles.log",
@@ -247,6 +263,8 @@ rule fig09_relax:
             "results/figures/fig09_relax.png",
             caption="../report/fig09_relax.rst",
             category="Figures",
+            subcategory="Tubes",
+            labels={"figure": "9", "shows": "the drying front and its sharpness"},
         ),
     log:
         "results/logs/fig09_relax.log",
@@ -277,6 +295,8 @@ rule fig10_flow:
             "results/figures/fig10_flow.png",
             caption="../report/fig10_flow.rst",
             category="Figures",
+            subcategory="Tubes",
+            labels={"figure": "10", "shows": "flow around the front"},
         ),
     log:
         "results/logs/fig10_flow.log",
@@ -310,6 +330,8 @@ rule fig11_flow_close:
             "results/figures/fig11_flow_close.png",
             caption="../report/fig11_flow_close.rst",
             category="Figures",
+            subcategory="Tubes",
+            labels={"figure": "11", "shows": "interstitial flow next to the front"},
         ),
     log:
         "results/logs/fig11_flow_close.log",
@@ -336,6 +358,8 @@ rule fig12_axial_flow:
             "results/figures/fig12_axial_flow.png",
             caption="../report/fig12_axial_flow.rst",
             category="Figures",
+            subcategory="Tubes",
+            labels={"figure": "12", "shows": "the pulse of water in the lumen"},
         ),
     log:
         "results/logs/fig12_axial_flow.log",
@@ -362,6 +386,8 @@ rule fig13_osmotic:
             "results/figures/fig13_osmotic.png",
             caption="../report/fig13_osmotic.rst",
             category="Figures",
+            subcategory="Gel and model",
+            labels={"figure": "13", "shows": "osmotic pressure of both gels"},
         ),
     log:
         "results/logs/fig13_osmotic.log",
@@ -386,6 +412,8 @@ rule fig14_equilibrium:
             "results/figures/fig14_equilibrium.png",
             caption="../report/fig14_equilibrium.rst",
             category="Figures",
+            subcategory="Gel and model",
+            labels={"figure": "14", "shows": "equilibrium polymer fraction"},
         ),
     log:
         "results/logs/fig14_equilibrium.log",

@@ -16,6 +16,7 @@ rule table1_tube_parameters:
             "results/tables/table1_tube_parameters.md",
             caption="../report/table1_tube_parameters.rst",
             category="Tables",
+            labels={"table": "1", "shows": "parameters of the tubes"},
         ),
         tex="results/tables/table1_tube_parameters.tex",
     log:
@@ -38,6 +39,7 @@ rule table2_gel_parameters:
             "results/tables/table2_gel_parameters.md",
             caption="../report/table2_gel_parameters.rst",
             category="Tables",
+            labels={"table": "2", "shows": "parameters of the gels"},
         ),
         tex="results/tables/table2_gel_parameters.tex",
     log:

@@ -99,17 +99,18 @@ def integrate(
     tolerance: float,
     first_step: float,
     error_norm: Callable[[np.ndarray, np.ndarray], float],
+    trials: int = MAX_TRIALS,
 ) -> Iterator[Step]:
     """March dy/dt = f(t, y) from y(0) = initial to t = end, one accepted Step at a time.
 
     ``error_norm(y, difference)`` measures a local error; steps keep it at or below ``tolerance``.
     ``advance`` may raise NotConverged (the step is shortened) or Barrier (the time of the barrier
     is closed in on to one part in a thousand, then the Barrier is raised).  RuntimeError if the
-    step shrinks below what double precision can resolve, or after MAX_TRIALS steps.
+    step shrinks below what double precision can resolve, or after `trials` steps.
     """
     times, solutions = [0.0], [np.array(initial, dtype=float)]
     step = min(first_step, end)
-    for _ in range(MAX_TRIALS):
+    for _ in range(trials):
         if times[0] >= end:
             return
         last = step >= end - times[0]
@@ -147,4 +148,4 @@ def integrate(
         del times[order + 1 :], solutions[order + 1 :]
         yield Step(np.array(times), np.array(solutions))
         step *= min(GROWTH_LIMIT, max(SHRINK_LIMIT, optimum))
-    raise RuntimeError(f"{MAX_TRIALS} steps ended at t = {times[0]:.8g}, before t = {end:.8g}")
+    raise RuntimeError(f"{trials} steps ended at t = {times[0]:.8g}, before t = {end:.8g}")

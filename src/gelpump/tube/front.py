@@ -38,8 +38,7 @@ def sharpness(pulse, window=WINDOW, in_units_of_A=False):
     """
     Phi_inf = pulse.Phi_inf.values[:, np.newaxis, np.newaxis]
     w = wall_length(pulse)[:, np.newaxis, np.newaxis]
-    ahead = pulse.Z.values - pulse.Z_C.values[:, np.newaxis]
-    faces = pulse.Z_face.values - pulse.Z_C.values[:, np.newaxis]
+    ahead, faces = (pulse.Z - pulse.Z_C).values, (pulse.Z_face - pulse.Z_C).values
     A = 0.8 / w * np.ones((1, pulse.sizes["tau"], 1))
     for _ in range(60):
         half = window / A if in_units_of_A else window * w

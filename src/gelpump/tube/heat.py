@@ -37,12 +37,15 @@ class Heat(Protocol):
 
 @dataclass(frozen=True)
 class StepHeating:
-    """The end Z = 0 is brought to T_C + Delta T at tau = 0 and kept there."""
+    """The end Z = 0 is brought to T_C + Delta T at tau = 0 and kept there.
 
-    Le: float = 10.0
+    Le is a number, or a column (tubes, 1) for tubes that differ in it.
+    """
+
+    Le: float | np.ndarray = 10.0
 
     def __post_init__(self):
-        if not (np.isfinite(self.Le) and self.Le > 0):
+        if not (np.isfinite(self.Le) & (np.asarray(self.Le) > 0)).all():
             raise ValueError(f"Le = {self.Le!r} is not allowed: it must be positive and finite")
 
     def front(self, tau):

@@ -98,6 +98,12 @@ def radial_rate(wall: Wall, V):
     return -np.diff(V) / wall.cell_length / 2
 
 
+def above_far(V, hot):
+    """What the pulse adds, in the cells: V behind the front, V less that far ahead before it."""
+    middle = (V[..., 1:] + V[..., :-1]) / 2
+    return np.where(hot, middle, middle - V[..., -1:])
+
+
 def prefactor(eps, one_minus_ell):
     """What eqn:lumen has before its integral, and figure 12 has not."""
     return 8 / (eps * one_minus_ell) ** 2

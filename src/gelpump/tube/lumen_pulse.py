@@ -101,9 +101,7 @@ def _solved(gel, tube, here, fit):
             "eqn:lumen with the tanh form of the tube's own A",
             scaling.AXIAL_VELOCITY,
         )
-    V = lumen.velocity_printed(wall)
-    middle = (V[..., 1:] + V[..., :-1]) / 2
-    above = np.where(here.hot.values, middle, middle - V[..., -1:])
+    above = lumen.above_far(lumen.velocity_printed(wall), here.hot.values)
     area = np.pi * ell[..., np.newaxis] ** 2 * wall.Phi1 ** (-2 / 3)
     data["pulse_flux"] = variable(
         dims,

@@ -62,7 +62,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
-from gelpump.bdf import NotConverged, Step, integrate, interpolation_weights
+from gelpump.bdf import MAX_TRIALS, NotConverged, Step, integrate, interpolation_weights
 from gelpump.finite_volume import DriftSweep
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
@@ -85,6 +85,8 @@ def solve(
     tolerance: float = 3e-5,
     order: int = 3,
     reach: float = 12.0,
+    newton_share: float = NEWTON_SHARE,
+    trials: int = MAX_TRIALS,
 ) -> xr.Dataset:
     """Phi_1 of all `tubes` at the times `tau`, on cells behind and ahead of the front.
 
@@ -92,13 +94,16 @@ def solve(
     steps, `reach` the distance from the front to the end of the domain in units of w (Phi_1 = 1
     beyond). The defaults give Phi_1 to 1e-3 in the maximum norm for Lewis numbers up to some
     hundreds; above, `Family.limit` costs accuracy and more cells behind the front are needed.
+    `newton_share` of the tolerance may be left by Newton's iteration: where Phi_inf is large, what
+    a tenth leaves can stall the choice of the next step. After `trials` steps RuntimeError is
+    raised. The Lewis number of `heat` may be a column, (tubes, 1).
     """
     tau = np.atleast_1d(np.asarray(tau, float))
     if not (tau[0] > 0 and (np.diff(tau) > 0).all() and np.isfinite(tau).all()):
         raise ValueError(f"tau = {tau} is not allowed: positive and increasing")
     if heat.front(0.0) != 0 or not (np.diff(heat.front(tau), prepend=0.0) > 0).all():
         raise ValueError("heat.front is not allowed: it must start at Z = 0 and move ahead")
-    family = Family(tubes, heat, cells, reach, NEWTON_SHARE * tolerance)
+    family = Family(tubes, heat, cells, reach, newton_share * tolerance)
     times = np.sqrt(tau)
     lost = np.zeros(family.tubes)
     rates = [lost]
@@ -111,6 +116,7 @@ def solve(
         tolerance=tolerance,
         first_step=0.01 * family.w.min(),
         error_norm=family.error_norm,
+        trials=trials,
     ):
         steps += 1
         rates = [family.loss_rate(step), *rates[:order]]
@@ -318,7 +324,7 @@ class Family:
             "Z_face": Z_face,
             "flux": np.pad(-3 * flux * face**-3.0 / self.w, ((0, 0), (1, 1))),
             "Phi1_front": face[:, self.behind - 1] ** -3.0,
-            "front_error": np.abs(Z_face[:, self.behind] - self.heat.front(t * t)),
+            "front_error": np.abs(Z_face[:, self.behind] - (self.w * self.front(t))[:, 0]),
             "water_balance_error": np.abs(shortening - lost) / self.front(t)[:, 0],
             "departed_length": (np.diff(Z_face) * departed).sum(axis=1),
         }
@@ -374,7 +380,9 @@ def _dataset(tubes, tau, heat, family, found):
         )
         for name, (dim, *text) in VARIABLES.items()
     }
-    data["Z_C"] = variable("tau", heat.front(tau), "position of the front", scaling.AXIAL)
+    Z_C = np.asarray(heat.front(tau))
+    dims = ("ell", "tau")[-Z_C.ndim :]
+    data["Z_C"] = variable(dims, Z_C, "position of the front", scaling.AXIAL)
     data["hot"] = variable("cell", family.hot, "whether the cell is behind the front")
     for key, text in PARAMETERS.items():
         data[key] = variable("ell", np.ravel(getattr(tubes, key)), text)

@@ -66,7 +66,8 @@ def fake_meshes(run):
 
 
 def test_refinement_estimates_the_true_error():
-    refined = production.refinement(fake_run, fake_meshes(fake_run), 100, 1e-6)
+    bead, refined = production.refined(fake_run, fake_meshes(fake_run), 100, 1e-6)
+    assert bead.identical(fake_run(100, 1e-6))
     true_error = 100**-2.0 + 10e-6
     estimate = refined.radius_uncertainty.values
     assert np.all(estimate >= true_error)
@@ -78,7 +79,7 @@ def test_runs_that_stop_are_compared_up_to_the_first_stop():
     def stopping(cells, tolerance):
         return fake_run(cells, tolerance, stop=0.6 + 1.0 / cells)
 
-    refined = production.refinement(stopping, fake_meshes(stopping), 100, 1e-6)
+    _, refined = production.refined(stopping, fake_meshes(stopping), 100, 1e-6)
     assert refined.t.values.max() == 0.5
     assert refined.stop_time[0] == pytest.approx(0.61)
     assert float(refined.stop_time_uncertainty) > 0

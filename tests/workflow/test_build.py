@@ -88,12 +88,12 @@ def append_comment(path: Path) -> None:
         ("figures/fig13_osmotic.py", {"fig13_osmotic"}, {"fig14_equilibrium", "materials"}),
         (
             "bead/lens.py",
-            {"bead_lens", "refine_bead_lens", "fig03_swell_bead", "claims"},
+            {"bead_lens", "fig03_swell_bead", "claims"},
             {"bead_nonlinear", "materials", "fig14_equilibrium"},
         ),
         (
             "bead/nonlinear.py",
-            {"bead_nonlinear", "refine_bead_nonlinear", "fig03_swell_bead"},
+            {"bead_nonlinear", "fig03_swell_bead"},
             {"bead_lens", "fig05_spinodal", "materials"},
         ),
         ("claims/beads.py", {"claims"}, {"bead_lens", "fig03_swell_bead"}),

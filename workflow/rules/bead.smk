@@ -1,4 +1,4 @@
-# Swelling and drying beads (section 2.1) in both models, and the refinement of each.
+# Swelling and drying beads (section 2.1) in both models, each together with its refinement.
 
 BEADS = expand(
     [
@@ -22,11 +22,13 @@ rule bead_lens:
     input:
         src=modules(*LENS_BEAD),
     output:
-        f"{DATA}/bead_{{case}}_lens.nc",
+        bead=f"{DATA}/bead_{{case}}_lens.nc",
+        refinement=f"{DATA}/refinement/bead_{{case}}_lens.nc",
     log:
         "results/logs/bead_{case}_lens.log",
     benchmark:
         "results/benchmarks/bead_{case}_lens.tsv"
+    priority: 2
     params:
         case=bead_case,
         gel=bead_gel,
@@ -39,51 +41,19 @@ rule bead_nonlinear:
     input:
         src=modules(*NONLINEAR_BEAD),
     output:
-        f"{DATA}/bead_{{case}}_nonlinear.nc",
+        bead=f"{DATA}/bead_{{case}}_nonlinear.nc",
+        refinement=f"{DATA}/refinement/bead_{{case}}_nonlinear.nc",
     log:
         "results/logs/bead_{case}_nonlinear.log",
     benchmark:
         "results/benchmarks/bead_{case}_nonlinear.tsv"
+    priority: 2
     params:
         case=bead_case,
         gel=bead_gel,
         numerics=config["numerics"]["bead_nonlinear"],
     script:
         "../scripts/bead_nonlinear.py"
-
-
-rule refine_bead_lens:
-    input:
-        src=modules(*LENS_BEAD),
-    output:
-        f"{DATA}/refinement/bead_{{case}}_lens.nc",
-    log:
-        "results/logs/refine_bead_{case}_lens.log",
-    benchmark:
-        "results/benchmarks/refine_bead_{case}_lens.tsv"
-    params:
-        case=bead_case,
-        gel=bead_gel,
-        numerics=config["numerics"]["bead_lens"],
-    script:
-        "../scripts/refine_bead_lens.py"
-
-
-rule refine_bead_nonlinear:
-    input:
-        src=modules(*NONLINEAR_BEAD),
-    output:
-        f"{DATA}/refinement/bead_{{case}}_nonlinear.nc",
-    log:
-        "results/logs/refine_bead_{case}_nonlinear.log",
-    benchmark:
-        "results/benchmarks/refine_bead_{case}_nonlinear.tsv"
-    params:
-        case=bead_case,
-        gel=bead_gel,
-        numerics=config["numerics"]["bead_nonlinear"],
-    script:
-        "../scripts/refine_bead_nonlinear.py"
 
 
 rule bead_sensitivity:
@@ -95,6 +65,7 @@ rule bead_sensitivity:
         "results/logs/sensitivity_{case}.log",
     benchmark:
         "results/benchmarks/sensitivity_{case}.tsv"
+    priority: 2
     params:
         case=bead_case,
         gel=bead_gel,

@@ -20,6 +20,8 @@ if workflow.is_main_process:
 else:  # a job of a workflow that was checked when it started
     checked.fill_defaults(config, schema)
 
+# Priorities of rules: the longest chain of jobs begins first (3), then long jobs (2, 1), so that
+# figures and other short ones fill the gaps.
 DATA = "results/data"
 ENERGY_GELS = [name for name, block in config["gels"].items() if block["model"] == "energy-based"]
 

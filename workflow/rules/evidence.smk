@@ -33,6 +33,7 @@ rule second_bead_lens:
         "results/logs/second_bead_{case}_lens.log",
     benchmark:
         "results/benchmarks/second_bead_{case}_lens.tsv"
+    priority: 1
     params:
         case=bead_case,
         gel=bead_gel,
@@ -51,6 +52,7 @@ rule second_tube_pulse:
         "results/logs/second_tube_pulse.log",
     benchmark:
         "results/benchmarks/second_tube_pulse.tsv"
+    priority: 1
     params:
         gel=tube_gel,
         tube=config["tube"],
@@ -129,5 +131,6 @@ rule verification:
         "results/logs/verification.log",
     benchmark:
         "results/benchmarks/verification.tsv"
+    priority: 2
     script:
         "../scripts/verification.py"

@@ -30,10 +30,6 @@ PULSE = [
 ]
 
 
-wildcard_constraints:
-    view="[a-z][a-z_]*",
-
-
 rule deswelling_map:
     input:
         src=modules(*UNIFORM_TUBE),
@@ -77,6 +73,7 @@ rule tube_pulse:
         "results/logs/tube_pulse.log",
     benchmark:
         "results/benchmarks/tube_pulse.tsv"
+    priority: 3
     params:
         gel=tube_gel,
         tube=config["tube"],
@@ -96,6 +93,7 @@ rule refine_tube_pulse:
         "results/logs/refine_tube_pulse.log",
     benchmark:
         "results/benchmarks/refine_tube_pulse.tsv"
+    priority: 3
     params:
         gel=tube_gel,
         tube=config["tube"],
@@ -116,6 +114,7 @@ rule front_fit:
         "results/logs/front_fit.log",
     benchmark:
         "results/benchmarks/front_fit.tsv"
+    priority: 3
     params:
         settings=config["front_fit"],
     script:
@@ -127,13 +126,13 @@ rule tube_flow:
         pulse=f"{DATA}/tube_pulse.nc",
         src=modules(*WALL, "tube/lumen", "tube/views"),
     output:
-        f"{DATA}/tube_flow_{{view}}.nc",
+        expand(f"{DATA}/tube_flow_{{view}}.nc", view=config["tube_flow"]),
     log:
-        "results/logs/tube_flow_{view}.log",
+        "results/logs/tube_flow.log",
     benchmark:
-        "results/benchmarks/tube_flow_{view}.tsv"
+        "results/benchmarks/tube_flow.tsv"
     params:
-        view=lambda wildcards: config["tube_flow"][wildcards.view],
+        views=config["tube_flow"],
     script:
         "../scripts/tube_flow.py"
 
@@ -163,6 +162,7 @@ rule lumen_pulse:
         "results/logs/lumen_pulse.log",
     benchmark:
         "results/benchmarks/lumen_pulse.tsv"
+    priority: 3
     params:
         gel=tube_gel,
         tube=config["tube"],

@@ -1,4 +1,4 @@
-"""Rule bead_lens: a bead in the LENS model."""
+"""Rule bead_lens: a bead in the LENS model, and its refinement."""
 
 from _helpers import job
 
@@ -10,19 +10,23 @@ with job(snakemake) as provenance:
     case, numerics = snakemake.params.case, snakemake.params.numerics
     gel = from_config(case["gel"], snakemake.params.gel)
     temperature, phi_initial, times = production.start(gel, case, numerics)
-    bead = lens.solve(
-        gel,
-        temperature,
-        phi_initial,
-        times,
-        numerics["cells"],
-        tolerance=numerics["tolerance"],
-    )
-    print(bead.attrs)
+
+    def run(cells, tolerance):
+        bead = lens.solve(gel, temperature, phi_initial, times, cells, tolerance=tolerance)
+        print(cells, tolerance, bead.attrs)
+        return production.measured(bead, gel, temperature)
+
+    def run_meshes(meshes, tolerance):
+        beads = lens.solve_meshes(gel, temperature, phi_initial, times, meshes, tolerance=tolerance)
+        print(meshes, tolerance, beads[0].attrs)
+        if beads[0].attrs["stopped"]:  # at the first mesh's time: each has its own
+            return [run(cells, tolerance) for cells in meshes]
+        return [production.measured(bead, gel, temperature) for bead in beads]
+
+    bead, refinement = production.refined(run, run_meshes, numerics["cells"], numerics["tolerance"])
+    title = f"{snakemake.wildcards.case} bead, LENS model"
+    parameters = {"case": case, "gel": snakemake.params.gel, "numerics": numerics}
+    netcdf.write(bead, snakemake.output.bead, title, parameters, provenance)
     netcdf.write(
-        production.measured(bead, gel, temperature),
-        snakemake.output[0],
-        title=f"{snakemake.wildcards.case} bead, LENS model",
-        parameters={"case": case, "gel": snakemake.params.gel, "numerics": numerics},
-        provenance=provenance,
+        refinement, snakemake.output.refinement, f"{title}, refinement", parameters, provenance
     )

@@ -1,4 +1,4 @@
-"""Rule bead_nonlinear: a bead in the fully nonlinear model."""
+"""Rule bead_nonlinear: a bead in the fully nonlinear model, and its refinement."""
 
 from _helpers import job
 
@@ -10,19 +10,19 @@ with job(snakemake) as provenance:
     case, numerics = snakemake.params.case, snakemake.params.numerics
     gel = from_config(case["gel"], snakemake.params.gel)
     temperature, phi_initial, times = production.start(gel, case, numerics)
-    bead = nonlinear.solve(
-        gel,
-        temperature,
-        phi_initial,
-        times,
-        numerics["cells"],
-        tolerance=numerics["tolerance"],
-    )
-    print(bead.attrs)
+
+    def run(cells, tolerance):
+        bead = nonlinear.solve(gel, temperature, phi_initial, times, cells, tolerance=tolerance)
+        print(cells, tolerance, bead.attrs)
+        return production.measured(bead, gel, temperature)
+
+    def run_meshes(meshes, tolerance):
+        return [run(cells, tolerance) for cells in meshes]
+
+    bead, refinement = production.refined(run, run_meshes, numerics["cells"], numerics["tolerance"])
+    title = f"{snakemake.wildcards.case} bead, fully nonlinear model"
+    parameters = {"case": case, "gel": snakemake.params.gel, "numerics": numerics}
+    netcdf.write(bead, snakemake.output.bead, title, parameters, provenance)
     netcdf.write(
-        production.measured(bead, gel, temperature),
-        snakemake.output[0],
-        title=f"{snakemake.wildcards.case} bead, fully nonlinear model",
-        parameters={"case": case, "gel": snakemake.params.gel, "numerics": numerics},
-        provenance=provenance,
+        refinement, snakemake.output.refinement, f"{title}, refinement", parameters, provenance
     )

@@ -1,4 +1,4 @@
-"""Rule tube_flow: flow through the wall and in the lumen of one tube at one time."""
+"""Rule tube_flow: flow through the wall and in the lumen of a tube at one time, for each view."""
 
 from _helpers import job
 
@@ -6,11 +6,12 @@ with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.tube import views
 
-    view = snakemake.params.view
-    netcdf.write(
-        views.tube_flow(netcdf.read(snakemake.input.pulse), view["ell"], view["tau"]),
-        snakemake.output[0],
-        title=f"flow in a collapsing tube: {snakemake.wildcards.view}",
-        parameters={"view": view},
-        provenance=provenance,
-    )
+    pulse = netcdf.read(snakemake.input.pulse)
+    for (name, view), path in zip(snakemake.params.views.items(), snakemake.output, strict=True):
+        netcdf.write(
+            views.tube_flow(pulse, view["ell"], view["tau"]),
+            path,
+            title=f"flow in a collapsing tube: {name}",
+            parameters={"view": view},
+            provenance=provenance,
+        )

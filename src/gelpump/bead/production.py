@@ -70,19 +70,22 @@ def measured(bead: "xr.Dataset", gel, temperature: float) -> "xr.Dataset":
     )
 
 
-def refinement(run: Run, run_meshes: MeshRun, cells: int, tolerance: float) -> "xr.Dataset":
-    """A case on half and twice the cells, and with tolerances four times looser and tighter.
+def refined(
+    run: Run, run_meshes: MeshRun, cells: int, tolerance: float
+) -> tuple["xr.Dataset", "xr.Dataset"]:
+    """A case, and beside it on half and twice the cells and with tolerances four times looser and
+    tighter.
 
     run(cells, tolerance) makes one run, run_meshes(list of cells, tolerance) several that may
-    share their time steps.  Dims (level, t), level 0 having the production resolution;
-    ``NAME_uncertainty(t)`` adds the estimated errors of space and time.  Runs that stop early are
-    compared up to the first one's stop.
+    share their time steps.  The first dataset is the production run.  The second has the dims
+    (level, t), level 0 being production; ``NAME_uncertainty(t)`` adds the estimated errors of
+    space and time.  Runs that stop early are compared up to the first one's stop.
     """
     meshes = [cells, cells // 2, 2 * cells]
     tolerances = [TOLERANCE_FACTOR * tolerance, tolerance / TOLERANCE_FACTOR]
     levels = [(mesh, tolerance) for mesh in meshes] + [(cells, other) for other in tolerances]
     runs = run_meshes(meshes, tolerance) + [run(cells, other) for other in tolerances]
-    return compared(levels, runs)
+    return runs[0], compared(levels, runs)
 
 
 def compared(levels: Sequence[tuple[int, float]], runs: Sequence["xr.Dataset"]) -> "xr.Dataset":

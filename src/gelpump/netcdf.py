@@ -35,6 +35,7 @@ def write(
     title: str,
     parameters: Mapping[str, Any],
     provenance: "Provenance | None" = None,
+    flag: str | None = None,
 ):
     """Write ``dataset`` to ``path``, with ``parameters`` (the rule's config) in its attributes.
 
@@ -42,9 +43,10 @@ def write(
 
     The file appears under its name only when it is complete and on the disk.  Neither date nor
     path is stored, so that equal inputs give equal bytes.  ValueError if a number in it is not
-    finite; OSError if it cannot be written.
+    finite, unless the variable ``flag`` says of its row that it failed; OSError if it cannot be
+    written.
     """
-    _require_finite(dataset, title)
+    _require_finite(dataset, title, flag)
     dataset = dataset.assign_attrs(
         Conventions="CF-1.11",
         title=title,
@@ -60,7 +62,13 @@ def write(
     for name in list(dataset.attrs):
         if dataset.attrs[name] == "":
             del dataset.attrs[name]
-    encoding = {name: {"_FillValue": None} for name in dataset.variables}
+    missing = np.nan if flag else None
+    encoding = {
+        name: {"_FillValue": missing if each.dtype.kind == "f" and name in dataset else None}
+        for name, each in dataset.variables.items()
+    }
+    for name in dataset.coords:
+        encoding[name]["_FillValue"] = None
     with whole(path) as partial:
         dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4", encoding=encoding)
 
@@ -88,10 +96,13 @@ def whole(path: str | Path) -> Iterator[Path]:
             partial.unlink(missing_ok=True)
 
 
-def _require_finite(dataset, title):
+def _require_finite(dataset, title, flag):
     for name, each in dataset.variables.items():
         if each.dtype.kind == "f":
-            bad = int((~np.isfinite(each.values)).sum())
+            unknown = ~np.isfinite(each.values)
+            if flag and each.dims[:1] == dataset[flag].dims:
+                unknown = unknown[dataset[flag].values == 0]
+            bad = int(unknown.sum())
             if bad:
                 raise ValueError(f"{title}: {bad} values of {name} are not finite")
 

@@ -101,7 +101,7 @@ def solve(
     tau = np.atleast_1d(np.asarray(tau, float))
     if not (tau[0] > 0 and (np.diff(tau) > 0).all() and np.isfinite(tau).all()):
         raise ValueError(f"tau = {tau} is not allowed: positive and increasing")
-    if heat.front(0.0) != 0 or not (np.diff(heat.front(tau), prepend=0.0) > 0).all():
+    if np.any(heat.front(0.0)) or not (np.diff(heat.front(tau), prepend=0.0) > 0).all():
         raise ValueError("heat.front is not allowed: it must start at Z = 0 and move ahead")
     family = Family(tubes, heat, cells, reach, newton_share * tolerance)
     times = np.sqrt(tau)

@@ -1,0 +1,172 @@
+# Sweeps over the tube's parameters: config/sweeps/NAME.yaml is `snakemake --cores 2 sweep_NAME`.
+# A file is read when its sweep is asked for, and only then.
+from functools import cache
+
+from gelpump.sweep import plan
+
+SWEEPS = sorted(path.stem for path in Path("config/sweeps").glob("*.yaml"))
+SOLVING = [*PULSE, "sweep/__init__", "sweep/solving"]
+DRAWING = ["netcdf", "figures/__init__", "figures/style", "figures/sweep"]
+
+
+@cache
+def sweep_plan(name):
+    try:
+        return plan.load(f"config/sweeps/{name}.yaml")
+    except checked.ConfigError as refusal:
+        raise WorkflowError(str(refusal))
+
+
+def sweep_params(*keys):
+    """What a rule takes of its sweep's file; all of it but the size of the chunks without keys."""
+    return lambda wildcards: {
+        key: value
+        for key, value in sweep_plan(wildcards.sweep).items()
+        if (key in keys if keys else key != "chunk")
+    }
+
+
+def sweep_chunks(wildcards):
+    count = plan.chunks(sweep_plan(wildcards.sweep))
+    return [f"results/sweeps/{wildcards.sweep}/chunks/{i:06d}.nc" for i in range(count)]
+
+
+def sweep_spacing(wildcards):
+    return {
+        key: isinstance(block, dict) and block.get("spaced") == "log"
+        for key, block in sweep_plan(wildcards.sweep)["parameters"].items()
+    }
+
+
+def sweep_products(name):
+    kinds = ["surface"] + (["bars"] if sweep_plan(name)["method"] == "sobol" else [])
+    figures = [f"{kind}.{suffix}" for kind in kinds for suffix in ("pdf", "png", "svg")]
+    return [f"results/sweeps/{name}/{file}" for file in ("sweep.nc", "accuracy.nc", *figures)]
+
+
+wildcard_constraints:
+    sweep="[A-Za-z0-9_]+",
+    chunk="[0-9]+",
+
+
+localrules:
+    sweep_designs,
+    sweep_combine,
+    sweep_surface,
+    sweep_indices,
+    sweep_bars,
+
+
+for _name in SWEEPS:
+
+    rule:
+        name:
+            f"sweep_{_name}"
+        input:
+            lambda wildcards, name=_name: sweep_products(name),
+        localrule: True
+
+
+rule sweep_designs:
+    input:
+        src=modules("netcdf", "config", *GEL, "sweep/__init__", "sweep/plan", "sweep/sampling"),
+    output:
+        "results/sweeps/{sweep}/designs.nc",
+    log:
+        "results/logs/sweep_{sweep}_designs.log",
+    params:
+        sweep=sweep_params("method", "parameters", "fixed", "samples", "seed"),
+    script:
+        "../scripts/sweep_designs.py"
+
+
+rule sweep_chunk:
+    input:
+        designs="results/sweeps/{sweep}/designs.nc",
+        src=modules(*SOLVING),
+    output:
+        "results/sweeps/{sweep}/chunks/{chunk}.nc",
+    log:
+        "results/logs/sweep_{sweep}/{chunk}.log",
+    params:
+        sweep=sweep_params("tau", "numerics"),
+        size=lambda wildcards: sweep_plan(wildcards.sweep)["chunk"],
+    script:
+        "../scripts/sweep_chunk.py"
+
+
+rule sweep_combine:
+    input:
+        chunks=sweep_chunks,
+        src=modules("netcdf", "sweep/__init__", "sweep/combine"),
+    output:
+        "results/sweeps/{sweep}/sweep.nc",
+    log:
+        "results/logs/sweep_{sweep}_combine.log",
+    params:
+        sweep=sweep_params(),
+        designs=lambda wildcards: plan.designs(sweep_plan(wildcards.sweep)),
+    script:
+        "../scripts/sweep_combine.py"
+
+
+rule sweep_accuracy:
+    input:
+        sweep="results/sweeps/{sweep}/sweep.nc",
+        src=modules(*SOLVING, "sweep/accuracy"),
+    output:
+        "results/sweeps/{sweep}/accuracy.nc",
+    log:
+        "results/logs/sweep_{sweep}_accuracy.log",
+    params:
+        sweep=sweep_params("tau", "numerics", "accuracy", "seed"),
+    script:
+        "../scripts/sweep_accuracy.py"
+
+
+rule sweep_indices:
+    input:
+        sweep="results/sweeps/{sweep}/sweep.nc",
+        src=modules(
+            *GEL,
+            "netcdf",
+            "config",
+            "sweep/__init__",
+            "sweep/plan",
+            "sweep/sampling",
+            "sweep/sensitivity",
+        ),
+    output:
+        "results/sweeps/{sweep}/indices.nc",
+    log:
+        "results/logs/sweep_{sweep}_indices.log",
+    params:
+        sweep=sweep_params("method", "parameters", "fixed", "samples", "seed"),
+    script:
+        "../scripts/sweep_indices.py"
+
+
+rule sweep_surface:
+    input:
+        sweep="results/sweeps/{sweep}/sweep.nc",
+        src=modules(*DRAWING),
+    output:
+        multiext("results/sweeps/{sweep}/surface", ".pdf", ".png", ".svg"),
+    log:
+        "results/logs/sweep_{sweep}_surface.log",
+    params:
+        varied=sweep_spacing,
+    script:
+        "../scripts/sweep_surface.py"
+
+
+rule sweep_bars:
+    input:
+        indices="results/sweeps/{sweep}/indices.nc",
+        src=modules(*DRAWING),
+    output:
+        multiext("results/sweeps/{sweep}/bars", ".pdf", ".png", ".svg"),
+    log:
+        "results/logs/sweep_{sweep}_bars.log",
+    script:
+        "../scripts/sweep_bars.py"

@@ -16,14 +16,74 @@ K = (a + b)/2 and u = a - b, since FiPy's central convection takes the plain mea
 The local terms go to FiPy as one transient term, c (delta - delta_old)/1 with delta_old = -G/c: an
 implicit and an explicit source would say the same for twice the time, which is what a sweep costs.
 
+FiPy assembles a sparse matrix by adding one for each term and face side, and factorises it as if
+its structure were unknown: most of what a sweep costs.  In one dimension every entry lies on three
+diagonals, so FiPy's terms are given a matrix of just these to add to, and a solver for it: LAPACK's
+band elimination with pivoting (`_banded`).
+
 Two of FiPy 4.0.3's defaults would change answers silently, and are avoided here: its default solver
 skips a solve whose right-hand side looks small, so a direct one is named; and an unrelated
 installed solver package would take over, so SciPy's is pinned before FiPy is first imported.
 """
 
 import os
+from functools import cache
 
 import numpy as np
+
+
+@cache
+def _banded():
+    """FiPy's solver for tridiagonal systems, of its class; FiPy is imported only when needed."""
+    from fipy.matrices.scipyMatrix import _ScipyMeshMatrix
+    from fipy.solvers.scipy.scipySolver import ScipySolver
+    from scipy.linalg import solve_banded
+
+    class Diagonals:
+        """The diagonals above, on and below the main one, as `solve_banded` takes them."""
+
+        def __init__(self, cells):
+            self.bands = np.zeros((3, cells))
+            self.shape = cells, cells
+
+        def __mul__(self, x):
+            above, main, below = self.bands
+            product = main * x
+            product[:-1] += above[1:] * x[1:]
+            product[1:] += below[:-1] * x[:-1]
+            return product
+
+    class TridiagonalMatrix(_ScipyMeshMatrix):
+        """What FiPy's terms add their entries to."""
+
+        def __init__(self, mesh, **_):
+            super().__init__(mesh=mesh, matrix=Diagonals(mesh.numberOfCells))
+
+        def zeroEntries(self):
+            self.matrix.bands[:] = 0.0
+
+        def addAt(self, vector, id1, id2):
+            # a face, and so a pair of cells, is named once in each call
+            self.matrix.bands[1 + id1 - id2, id2] += vector
+
+        def __iadd__(self, other):
+            self.matrix.bands += other.matrix.bands
+            return self
+
+        def __mul__(self, x):
+            return self.matrix * x
+
+    class TridiagonalSolver(ScipySolver):
+        """Elimination with pivoting; any entry outside the three diagonals is an IndexError."""
+
+        @property
+        def _matrixClass(self):
+            return TridiagonalMatrix
+
+        def _solve_(self, L, x, b):
+            return solve_banded((1, 1), L.bands, b, check_finite=False)
+
+    return TridiagonalSolver()
 
 
 class NewtonSweep:
@@ -40,7 +100,7 @@ class NewtonSweep:
         self._equation = fipy.TransientTerm(coeff=self._reaction) - fipy.DiffusionTerm(
             coeff=self._conductance
         )
-        self._solver = fipy.LinearLUSolver(tolerance=1e-12)
+        self._solver = _banded()
         self.sweeps = 0
 
     def correction(

@@ -7,6 +7,7 @@ Says 'skipped: reason' and ends with 0 where they are missing. The cluster is bo
 has its configuration in a folder of its own, and is gone at the end.
 """
 
+import contextlib
 import importlib.util
 import os
 import shutil
@@ -42,7 +43,7 @@ SlurmdLogFile={folder}/%n.log
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
 SelectType=select/cons_tres
-SelectTypeParameters=CR_Core
+SelectTypeParameters=CR_Core_Memory
 SwitchType=switch/none
 MpiDefault=none
 ReturnToService=2
@@ -50,8 +51,8 @@ SlurmdTimeout=10
 MessageTimeout=5
 KillWait=2
 SlurmdParameters=config_overrides
-NodeName=n1 NodeHostname={host} NodeAddr=127.0.0.1 Port={port_1} CPUs=1
-NodeName=n2 NodeHostname={host} NodeAddr=127.0.0.1 Port={port_2} CPUs=1
+NodeName=n1 NodeHostname={host} NodeAddr=127.0.0.1 Port={port_1} CPUs=1 RealMemory=2000
+NodeName=n2 NodeHostname={host} NodeAddr=127.0.0.1 Port={port_2} CPUs=1 RealMemory=2000
 PartitionName=work Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
 
@@ -138,18 +139,14 @@ class Cluster:
                 if ours and (on_node or step):
                     doomed.append(int(entry.name))
         for pid in doomed:
-            try:
+            with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
-            except ProcessLookupError:
-                pass
         return jobs
 
     def stop(self):
         for name in ("n1", "n2", "slurmctld", "munge"):
-            try:
+            with contextlib.suppress(OSError, ValueError):
                 os.kill(int((self.folder / f"{name}.pid").read_text()), signal.SIGTERM)
-            except (OSError, ValueError):
-                pass
         time.sleep(2)
 
 

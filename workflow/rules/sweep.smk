@@ -5,7 +5,18 @@ from functools import cache
 from gelpump.sweep import plan
 
 SWEEPS = sorted(path.stem for path in Path("config/sweeps").glob("*.yaml"))
-SOLVING = [*PULSE, "sweep/__init__", "sweep/solving"]
+SOLVING = [
+    *GEL,
+    *WALL,
+    "bdf",
+    "finite_volume",
+    "tube/deswelling",
+    "tube/heat",
+    "tube/lumen",
+    "tube/slender",
+    "sweep/__init__",
+    "sweep/solving",
+]
 DRAWING = ["netcdf", "figures/__init__", "figures/style", "figures/sweep"]
 
 
@@ -33,7 +44,11 @@ def sweep_chunks(wildcards):
 
 def sweep_spacing(wildcards):
     return {
-        key: isinstance(block, dict) and block.get("spaced") == "log"
+        key: (
+            block.get("spaced") == "log"
+            if isinstance(block, dict)
+            else block[0] > 0 and block[-1] > 10 * block[0]
+        )
         for key, block in sweep_plan(wildcards.sweep)["parameters"].items()
     }
 

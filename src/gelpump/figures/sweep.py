@@ -72,7 +72,7 @@ def _limits(median):
 
 
 def _most_moving(solved, varied, values):
-    """The two parameters with which the output's rank goes most, the most moving on the abscissa."""
+    """The two parameters that the output's rank follows most, the first on the abscissa."""
     names = list(varied)
     if len(names) == 1:
         return names[0], names[0]

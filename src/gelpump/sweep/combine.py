@@ -26,23 +26,22 @@ def combine(
 ) -> int:
     """Write `size` designs of the chunks, in their order, to `target`; the number that failed."""
     failed = start = 0
-    with netcdf.whole(target) as partial:
-        with netCDF4.Dataset(partial, "w", format="NETCDF4") as out:
-            for path in paths:
-                with netCDF4.Dataset(path) as chunk:
-                    if start == 0:
-                        _declare(out, chunk, size)
-                        out.setncatts({key: chunk.getncattr(key) for key in ATTRIBUTES})
-                        text = {"parameters": json.dumps(parameters, sort_keys=True)}
-                        out.setncatts({"title": title, **text, **extra})
-                    stop = start + len(chunk.dimensions["index"])
-                    for name, each in chunk.variables.items():
-                        if each.dimensions[:1] == ("index",):
-                            out[name][start:stop] = each[:]
-                    failed += int((chunk["status"][:] == 3).sum())
-                    start = stop
-            if start != size:
-                raise RuntimeError(f"the chunks hold {start} designs instead of {size}")
+    with netcdf.whole(target) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as out:
+        for path in paths:
+            with netCDF4.Dataset(path) as chunk:
+                if start == 0:
+                    _declare(out, chunk, size)
+                    out.setncatts({key: chunk.getncattr(key) for key in ATTRIBUTES})
+                    text = {"parameters": json.dumps(parameters, sort_keys=True)}
+                    out.setncatts({"title": title, **text, **extra})
+                stop = start + len(chunk.dimensions["index"])
+                for name, each in chunk.variables.items():
+                    if each.dimensions[:1] == ("index",):
+                        out[name][start:stop] = each[:]
+                failed += int((chunk["status"][:] == 3).sum())
+                start = stop
+        if start != size:
+            raise RuntimeError(f"the chunks hold {start} designs instead of {size}")
     return failed
 
 

@@ -13,6 +13,7 @@ accuracy    designs that are solved again on a finer mesh, and the error that is
 """
 
 from collections.abc import Mapping
+from itertools import pairwise
 from math import prod
 from pathlib import Path
 from typing import Any
@@ -44,7 +45,7 @@ WHOLE = {  # keys of whole numbers: least and largest
 
 
 def load(path: str | Path) -> dict[str, Any]:
-    """The checked sweep of a file; ConfigError with each key, what was given and what is allowed."""
+    """The checked sweep of a file; ConfigError with key, what was given and what is allowed."""
     import yaml
 
     require_plain(path)
@@ -91,11 +92,11 @@ def checked(given: Any, problems: list[str]) -> dict[str, Any]:
             problems.append(
                 f"{key} = {sweep[key]!r}: must be a whole number from {least} to {largest}"
             )
-    if sweep["method"] == "sobol" and type(sweep["samples"]) is int:
-        if sweep["samples"] & (sweep["samples"] - 1):
-            problems.append(f"samples = {sweep['samples']}: must be a power of two for sobol")
+    samples = sweep["samples"]
+    if sweep["method"] == "sobol" and type(samples) is int and samples & (samples - 1):
+        problems.append(f"samples = {samples}: must be a power of two for sobol")
     tau = sweep["tau"]
-    if not (_numbers(tau) and tau and tau[0] > 0 and all(a < b for a, b in zip(tau, tau[1:]))):  # noqa: B905
+    if not (_numbers(tau) and tau and tau[0] > 0 and all(a < b for a, b in pairwise(tau))):
         problems.append(f"tau = {tau!r}: must be a list of positive, increasing numbers")
     _check_parameters(sweep, problems)
     _check_block(sweep, "numerics", problems)

@@ -31,6 +31,7 @@ include: "workflow/rules/claims.smk"
 include: "workflow/rules/evidence.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/verify.smk"
+include: "workflow/rules/design.smk"
 include: "workflow/rules/sweep.smk"
 
 

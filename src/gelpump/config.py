@@ -86,8 +86,8 @@ def validate(config: dict[str, Any], schema: Mapping[str, Any]) -> None:
 
     Raises ConfigError.
     """
-    _refuse(_value_problems(config, ""))
-    _refuse(_schema_problems(config, schema))
+    _refuse(value_problems(config, ""))
+    _refuse(schema_problems(config, schema))
     fill_defaults(config, schema)
     _refuse(_physical_problems(config))
 
@@ -98,22 +98,22 @@ def _refuse(problems: Iterator[str]) -> None:
         raise ConfigError("the configuration is refused:\n  " + "\n  ".join(found))
 
 
-def _value_problems(value, key) -> Iterator[str]:
+def value_problems(value, key) -> Iterator[str]:
     """Keys that are not strings, and numbers that a float cannot hold."""
     if isinstance(value, dict):
         for name, each in value.items():
             if isinstance(name, str):
-                yield from _value_problems(each, f"{key}.{name}".lstrip("."))
+                yield from value_problems(each, f"{key}.{name}".lstrip("."))
             else:
                 yield f"{key or 'the configuration'}: the key {name!r} is not a string"
     elif isinstance(value, list):
         for i, each in enumerate(value):
-            yield from _value_problems(each, f"{key}[{i}]")
+            yield from value_problems(each, f"{key}[{i}]")
     elif isinstance(value, int | float) and not abs(value) <= sys.float_info.max:
         yield f"{key} = {str(value)[:20]}: must be a finite number"
 
 
-def _schema_problems(config, schema) -> Iterator[str]:
+def schema_problems(config, schema) -> Iterator[str]:
     from jsonschema import Draft202012Validator
 
     errors = Draft202012Validator(schema).iter_errors(config)

@@ -69,7 +69,7 @@ def closure(file: Path) -> frozenset[Path]:
 def declared_modules(clone) -> dict[str, set[str]]:
     """Files under src that each rule of a full build lists among its inputs."""
     result = clone.snakemake(
-        "--dry-run", "--forceall", "all", "verify", "renew_reference", "renew_map"
+        "--dry-run", "--forceall", "all", "verify", "renew_reference", "renew_map", "design_bead"
     )
     assert result.returncode == 0, result.stdout + result.stderr
     declared, rule = {}, None

@@ -16,7 +16,13 @@ NOT_LISTED = {
     "results/report.html",
     "results/tables/verify.md",
 }
-NOT_RESULTS = ("results/logs/", "results/benchmarks/", "results/provenance/")
+NOT_RESULTS = (
+    "results/logs/",
+    "results/benchmarks/",
+    "results/provenance/",
+    "results/designs/",  # asked for by name, as are sweeps: not of the paper's build
+    "results/sweeps/",
+)
 
 
 def changed(

@@ -1,0 +1,56 @@
+"""What the formulae say of a design, at once and without solving it.
+
+python -m gelpump.design config/designs/microtube.yaml
+python -m gelpump.design config/designs/microtube.yaml --within "10 ms"
+"""
+
+import argparse
+import sys
+
+from gelpump.config import ConfigError
+from gelpump.design import description, device, inverse, units, validity
+from gelpump.design.result import AMBER, GREEN
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Print numbers, lights and, for a tube, the ranges; 1 if the design is refused."""
+    parser = argparse.ArgumentParser(
+        prog="python -m gelpump.design",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("file", help="a design, as in config/designs")
+    parser.add_argument("--within", metavar="TIME", help='longest response time, such as "10 s"')
+    parser.add_argument("--config", default="config/config.yaml", help="where named gels stand")
+    options = parser.parse_args(arguments)
+    try:
+        block = description.read(options.file)
+        config = description.read(options.config)
+        design = description.checked(options.file, block, config["gels"])
+        wanted = design.wanted.get("response_time")
+        if options.within:
+            wanted = units.parsed(options.within, "s")
+    except ConfigError as refusal:
+        print(refusal, file=sys.stderr)
+        return 1
+    except ValueError as problem:
+        print(f"--within = {options.within!r}: {problem}; such as '10 s'", file=sys.stderr)
+        return 1
+    for each in device.results(design):
+        number, unit = units.shown(each.value, each.unit)
+        print(f"{each.text:50} {number:12.6g} {units.readable(unit):6} {each.source}")
+    for each in validity.before_solving(design):
+        print(f"{each.light:6} {each.criterion.text}: {each.reason}")
+    if wanted is not None and design.kind == "tube":
+        now, longest = device.response_time(design), units.si(wanted, "s")
+        for lights in (AMBER, GREEN):
+            print(f"within {longest:g} s, {'no light red' if lights == AMBER else 'all green'}:")
+            for each in inverse.ranges(design, longest, now, lights):
+                print(f"  {inverse.sentence(each)}")
+    elif wanted is not None:
+        print("a bead's response needs its solution: build its sheet")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,109 @@
+"""The inverse question: which designs respond within a given time, one parameter at a time.
+
+By scaling, exactly, with I the quadrature of t_99 (section 3.4), which holds the gel only:
+
+    tube:  t_99 = mu_l (a_1 - a_0)^2 I/(16 k Pi_00)         bead:  t_99 ~ mu_l a^2/(k Pi_00)
+
+so that the longest time allowed bounds the thickness from above and k and Pi_00 (the moduli keeping
+their ratios) from below. The lights that need no solution bound from the other side: slenderness,
+the Lewis number, the coupling G and the number of pores across the wall, each by a power of the
+parameter. `lights` asks for amber at least, or for green. Closeness and the lumen's flow are judged
+by solving the design forward.
+"""
+
+import math
+from dataclasses import dataclass
+
+from gelpump.design import units
+from gelpump.design.description import Design
+from gelpump.design.device import lewis_number
+from gelpump.design.result import AMBER, GREEN
+from gelpump.design.validity import CONTINUUM, COUPLING, LEWIS, SLENDER
+
+
+@dataclass(frozen=True)
+class Range:
+    """From ``low`` to ``high`` in SI ``unit``, and what sets either end; empty if low > high."""
+
+    key: str
+    text: str
+    unit: str
+    now: float
+    low: float
+    low_by: str
+    high: float
+    high_by: str
+
+    @property
+    def feasible(self) -> bool:
+        """Whether any value does it."""
+        return self.low <= self.high
+
+
+def ranges(design: Design, wanted: float, now: float, lights: str = AMBER) -> list[Range]:
+    """The range of each parameter for which t_99 <= ``wanted``; ``now`` is t_99 as designed (s).
+
+    ValueError unless both times are positive and ``lights`` is green or amber.
+    """
+    if not (wanted > 0 and now > 0 and lights in (GREEN, AMBER)):
+        raise ValueError(f"wanted = {wanted!r}, now = {now!r}, lights = {lights!r}: not allowed")
+    limit = {c: getattr(c, lights) for c in (SLENDER, LEWIS, COUPLING, CONTINUUM)}
+    faster, k, Le = wanted / now, design.si("permeability"), lewis_number(design)
+    time, pore = "response time", math.sqrt(k)
+    Pi_00 = design.material.Pi_00
+    if design.kind == "bead":
+        a = design.si("radius")
+        found = [
+            Range("radius", "radius of the bead", "m", a, limit[CONTINUUM] * pore, CONTINUUM.text,
+                  a * math.sqrt(faster), time),
+        ]  # fmt: skip
+        thickness, coupled = a, math.inf
+    else:
+        a_0, a_1, L = (design.si(key) for key in ("a_0", "a_1", "heated_length"))
+        wall = a_1 - a_0
+        thickness = wall
+        thickest, thinnest = wall * math.sqrt(faster), limit[CONTINUUM] * pore
+        widest = L * math.sqrt(limit[SLENDER])
+        narrowest = pore / math.sqrt(limit[COUPLING])
+        found = [
+            _range("wall", "thickness of the wall, same outer radius", "m", wall,
+                   [(thinnest, CONTINUUM.text)], [(thickest, time), (a_1, "no lumen is left")]),
+            _range("a_1", "outer radius, same inner radius", "m", a_1,
+                   [(a_0 + thinnest, CONTINUUM.text), (narrowest, COUPLING.text)],
+                   [(a_0 + thickest, time), (widest, SLENDER.text)]),
+            _range("size", "outer radius, same ratio of the radii", "m", a_1,
+                   [(a_1 * thinnest / wall, CONTINUUM.text), (narrowest, COUPLING.text)],
+                   [(a_1 * math.sqrt(faster), time), (widest, SLENDER.text)]),
+        ]  # fmt: skip
+        coupled = limit[COUPLING] * a_1**2
+    conducting = Le / limit[LEWIS]
+    found += [
+        _range("permeability", "permeability", "m^2", k, [(k / faster, time)],
+               [(k * conducting, LEWIS.text), (coupled, COUPLING.text),
+                ((thickness / limit[CONTINUUM]) ** 2, CONTINUUM.text)]),
+        _range("osmotic_modulus", "osmotic modulus, all moduli in proportion", "Pa", Pi_00,
+               [(Pi_00 / faster, time)], [(Pi_00 * conducting, LEWIS.text)]),
+    ]  # fmt: skip
+    return found
+
+
+def _range(key, text, unit, now, lows, highs) -> Range:
+    return Range(key, text, unit, now, *max(lows), *min(highs))
+
+
+def sentence(each: Range) -> str:
+    """The range in words."""
+
+    def said(value):
+        number, unit = units.shown(value, each.unit)
+        return f"{number:.4g} {units.readable(unit)}".strip()
+
+    if not each.feasible:
+        return (
+            f"{each.text}: none; at least {said(each.low)} ({each.low_by}), "
+            f"at most {said(each.high)} ({each.high_by})"
+        )
+    return (
+        f"{each.text}: {said(each.low)} ({each.low_by}) to {said(each.high)} ({each.high_by}); "
+        f"now {said(each.now)}"
+    )

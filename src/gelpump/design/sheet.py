@@ -1,0 +1,103 @@
+"""What the sheet of a design says, as rows of text, and the sheet in HTML."""
+
+from importlib.resources import files
+from typing import NamedTuple
+
+from gelpump.design import dataset, units
+from gelpump.design.result import LIGHTS
+
+MARKS = {"green": "●", "amber": "▲", "red": "■"}  # told apart without colours
+
+
+class LightRow(NamedTuple):
+    """A light, its mark, what it is about, why, and its limits with their source."""
+
+    light: str
+    mark: str
+    text: str
+    reason: str
+    limits: str
+    source: str
+
+
+def shown(value: float, unit: str) -> tuple[float, str]:
+    """A number and a unit as they are read."""
+    number, chosen = units.shown(value, unit)
+    return number, units.readable(chosen)
+
+
+def said(value: float, unit: str, digits: int = 4) -> str:
+    """A number with its unit."""
+    number, chosen = shown(value, unit)
+    return f"{number:.{digits}g} {chosen}".strip()
+
+
+def subtitle(data) -> str:
+    """Which gel, and where its numbers come from."""
+    return data.attrs["material"]
+
+
+def number_rows(data) -> list[tuple[str, str, str, str]]:
+    """Meaning, value, uncertainty and source of each number."""
+    rows = []
+    for key in dataset.numbers(data):
+        each = data[key]
+        number, unit = shown(float(each), each.units)
+        error = ""
+        if f"{key}_uncertainty" in data and float(each):
+            relative = abs(float(data[f"{key}_uncertainty"]) / float(each))
+            error = f"± {relative:.0e} relative"
+        rows.append((each.long_name, f"{number:.4g} {unit}".strip(), error, each.source_equation))
+    return rows
+
+
+def light_rows(data) -> list[LightRow]:
+    """Each light with its reason."""
+    rows = []
+    for key in dataset.lights(data):
+        each, light = data[key], LIGHTS[int(data[key])]
+        rows.append(LightRow(light, MARKS[light], each.long_name, each.reason,
+                             f"{each.judged_by.split(' = ')[0]}: {each.limits}",
+                             each.source_equation))  # fmt: skip
+    return rows
+
+
+def question(data) -> str:
+    """What was wanted."""
+    return f"What responds within {said(float(data.wanted_response_time), 's')}?"
+
+
+def answer_rows(data) -> list[tuple[str, str, str]]:
+    """Parameter, the range with no light red and what sets it, the range with all green."""
+    rows = []
+    for key in dataset.answers(data):
+        each = data[key]
+        text = []
+        for row in range(2):
+            low, high = map(float, each[row])
+            text.append(
+                f"{said(low, each.units, 3)} to {said(high, each.units, 3)}"
+                if low <= high
+                else "none"
+            )
+        below, above = each.set_by.split("; ")
+        loose = f"{text[0]} (set by: {below}; {above})"
+        rows.append((each.long_name, loose, f"all green: {text[1]}"))
+    return rows
+
+
+def html(data, svg: str) -> str:
+    """The sheet as a page that needs no other file."""
+    import jinja2
+
+    template = files("gelpump.design").joinpath("sheet.html.j2").read_text(encoding="utf-8")
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    return environment.from_string(template).render(
+        title=data.attrs["design_title"],
+        subtitle=subtitle(data),
+        numbers=number_rows(data),
+        lights=light_rows(data),
+        question=question(data) if "wanted_response_time" in data else "",
+        answers=answer_rows(data),
+        svg=svg[svg.index("<svg") :],
+    )

@@ -1,0 +1,298 @@
+"""The device solved on FiPy, with its numbers in SI units and their numerical uncertainty.
+
+A tube is the pulse of sections 3.5 and 3.6 until the front has travelled the heated length,
+Z_C = 1; its polymer fraction, front and flow are scaled back with L, a_1 and the poroelastic
+time. The lumen's flow is given as printed in eqn:lumen and in the form that conserves water
+(`gelpump.tube.lumen`); on either side of z = 0 the flow is the same. A bead is that of section 2.1
+until 99 per cent of its change of radius are made.
+
+Each is solved three times, with half and twice the cells and four times larger and smaller
+tolerances in time, for the uncertainties (`gelpump.uncertainty`).
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from gelpump.design import units
+from gelpump.design.description import Design
+from gelpump.design.device import lewis_number, scales, tubes
+from gelpump.design.result import Result
+from gelpump.uncertainty import convergence_index
+
+TIMES = 48
+FORMS = ("printed", "continuous")
+TOLERANCE_FACTOR = 4.0
+BEAD_CHANGE = 0.99
+FURTHER = 64.0  # times the first guess of a bead's response, beyond which it is given up
+
+
+def variable(dims, values, unit, long_name):
+    """A variable in SI units as xarray takes it."""
+    return dims, values, {"units": unit, "long_name": long_name}
+
+
+def solve(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Result]]:
+    """The solved device, and the numbers measured on it."""
+    return solve_tube(design, numerics) if design.kind == "tube" else solve_bead(design, numerics)
+
+
+def levels(numerics: Mapping):
+    """Coarser, given and finer cells with their tolerances; cells are a number or two."""
+    for finer in (0.5, 1.0, 2.0):
+        cells = [int(count * finer) for count in np.atleast_1d(numerics["cells"])]
+        yield cells, numerics["tolerance"] * TOLERANCE_FACTOR ** -np.log2(finer)
+
+
+def solve_tube(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Result]]:
+    """Dims t, cell, face: from t = 0 (excluded) until the front has travelled the heated length."""
+    from gelpump.tube.heat import FRONT_CONSTANT, StepHeating
+    from gelpump.tube.slender import solve
+
+    Le = lewis_number(design)
+    tau = (np.arange(1, TIMES + 1) / TIMES) ** 2 / (FRONT_CONSTANT**2 * Le)
+    runs = []
+    for cells, tolerance in levels(numerics):
+        pulse = solve(
+            tubes(design),
+            StepHeating(Le),
+            tau,
+            cells=tuple(cells),
+            tolerance=tolerance,
+            reach=numerics["reach"],
+        )
+        runs.append(in_si(design, pulse))
+    measured = [_tube_numbers(design, run) for run in runs]
+    found = []
+    for coarse, here, fine in zip(*measured, strict=True):
+        error = float(convergence_index(coarse.value, here.value, fine.value))
+        found.append(Result(**{**vars(here), "uncertainty": error}))
+    return runs[1], found
+
+
+def in_si(design: Design, pulse: xr.Dataset) -> xr.Dataset:
+    """A dataset of `gelpump.tube.slender` with one tube, in SI units."""
+    from gelpump.tube import lumen
+    from gelpump.tube.budget import water_budget
+    from gelpump.tube.flow import Wall
+    from gelpump.tube.front import sharpness
+
+    scale = scales(design)
+    time, L, a_1 = (units.si(scale[key], unit) for key, unit in
+                    (("time", "s"), ("along", "m"), ("across", "m")))  # fmt: skip
+    one = pulse.isel(ell=0)
+    wall = Wall.of(one)
+    Phi, ell = one.Phi1.values, float(one.ell)
+    front = pulse.attrs["cells_behind"]
+    A, misfit = (each[0] for each in sharpness(pulse))
+    data = {
+        "z": variable(("t", "cell"), L * one.Z.values, "m", "axial position of the cells"),
+        "z_face": variable(
+            ("t", "face"), L * one.Z_face.values, "m", "axial position of the faces"
+        ),
+        "polymer_ratio": variable(
+            ("t", "cell"), Phi, "1", "polymer fraction over that of the swollen tube"
+        ),
+        "inner_radius": variable(("t", "cell"), ell * a_1 * Phi ** (-1 / 3), "m", "inner radius"),
+        "outer_radius": variable(("t", "cell"), a_1 * Phi ** (-1 / 3), "m", "outer radius"),
+        "front_position": variable("t", L * one.Z_C.values, "m", "position where T = T_C"),
+        "front_polymer_ratio": variable(
+            "t", one.Phi1_front.values, "1", "polymer fraction at the front over the swollen one"
+        ),
+        "front_width": variable(
+            "t",
+            2 * np.arctanh(0.8) * L / A,
+            "m",
+            "length over which the fitted front makes the middle 80 per cent of its change",
+        ),
+        "front_fit_rms": variable("t", misfit, "1", "misfit of the fitted front"),
+        "departed_length": variable(
+            "t",
+            L * one.departed_length.values,
+            "m",
+            "length of tube that is more than a tenth of the jump away from equilibrium",
+        ),
+        "shed_volume": variable(
+            "t",
+            a_1**2 * L * water_budget(pulse).shed_volume.values[0],
+            "m^3",
+            "water that the wall has shed on one side of z = 0",
+        ),
+    }
+    if design.material.phi_00 is not None:
+        data["polymer_fraction"] = variable(
+            ("t", "cell"), design.material.phi_00 * Phi, "1", "polymer volume fraction"
+        )
+    t = time * one.tau.values
+    places = {"front": "at the front", "far": "far ahead"}
+    for form in FORMS:
+        V = L / time * lumen.VELOCITIES[form](wall)
+        area = np.pi * (ell * a_1) ** 2 * wall.Phi1_face ** (-2 / 3)
+        said = lumen.MEANING[form]
+        data[f"lumen_velocity_{form}"] = variable(
+            ("t", "face"), V, "m/s", f"axial velocity in the lumen, {said}"
+        )
+        for where, index in (("front", front), ("far", -1)):
+            data[f"flow_{where}_{form}"] = variable(
+                "t",
+                (V * area)[:, index],
+                "m^3/s",
+                f"flow of water along the lumen {places[where]}, {said}",
+            )
+        data[f"pumped_volume_{form}"] = variable(
+            "t",
+            _pumped(t, data[f"flow_far_{form}"][1]),
+            "m^3",
+            f"water pumped far ahead since t = 0 on one side of z = 0, {said}",
+        )
+    return xr.Dataset(
+        data,
+        coords={"t": ("t", t, {"units": "s", "long_name": "elapsed time"})},
+        attrs={key: pulse.attrs[key] for key in ("steps", "sweeps", "cells_behind", "cells_ahead")},
+    )
+
+
+def _pumped(t, flow):
+    """Integral of the flow from t = 0, where there is none; smooth in sqrt(t), as the front is."""
+    from scipy.interpolate import CubicSpline
+
+    root = np.sqrt(t)
+    spline = CubicSpline(np.append(0.0, root), np.append(0.0, flow * 2 * root))
+    return spline.antiderivative()(root)
+
+
+def _tube_numbers(design, run):
+    """final_*: what is measured when the front has travelled the heated length."""
+    last = run.isel(t=-1)
+    found = [
+        ("front_width", "width of the front, 10 to 90 per cent", "2.20 L/A", "m", "eqn:tanh_fit"),
+        ("departed_length", "length out of equilibrium", "", "m", "section 3.3"),
+        ("shed_volume", "water shed by the wall, per side", "", "m^3", "eqn:tube_model"),
+    ]
+    values = {name: float(last[name]) for name, *_ in found}
+    for form, said in (("printed", "as printed"), ("continuous", "water conserved")):
+        source = "eqn:lumen" if form == "printed" else "continuity at the inner edge"
+        texts = {
+            "lumen_velocity": ("largest velocity in the lumen", "v_z", "m/s"),
+            "flow_front": ("flow in the lumen at the front", "Q", "m^3/s"),
+            "flow_far": ("flow far ahead of the front", "Q", "m^3/s"),
+            "pumped_volume": ("volume pumped per pulse and side", "", "m^3"),
+        }
+        for name, (text, symbol, unit) in texts.items():
+            key = f"{name}_{form}"
+            values[key] = float(np.abs(last[key]).max() if last[key].dims else last[key])
+            found.append((key, f"{text}, {said}", symbol, unit, source))
+    return [
+        Result(f"final_{key}", text, symbol, values[key], unit, source)
+        for key, text, symbol, unit, source in found
+    ]
+
+
+def solve_bead(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Result]]:
+    """Dims t, cell: until 99 per cent of the change of radius are made, or phases separate."""
+    from gelpump.bead import lens
+
+    material, scale = design.material, scales(design)
+    start = material.own_start
+
+    def run(end, cells, tolerance):
+        times = end * np.linspace(0.0, 1.0, 121) ** 2
+        return lens.solve(material.gel, material.hot, start, times, cells, tolerance=tolerance)
+
+    end, coarse = _guess(material), 40
+    for _ in range(8):
+        bead = run(end, coarse, 1e-3)
+        if bead.attrs["stopped"] or _change(bead, material)[-1] > 0.995:
+            break
+        end *= 4.0
+    if not bead.attrs["stopped"]:
+        reached = _time_of(bead, material, BEAD_CHANGE)
+        end = float(1.3 * reached) if reached is not None else end
+    runs = [run(end, cells[0], tolerance) for cells, tolerance in levels(numerics)]
+    t_unit = units.si(scale["time"], "s")
+    found = []
+    for share in (0.5, 0.9, BEAD_CHANGE):
+        times = [_time_of(bead, material, share) for bead in runs]
+        if None in times:
+            continue
+        seconds = [t_unit * time for time in times]
+        found.append(
+            Result(
+                "response_time" if share == BEAD_CHANGE else f"time_{100 * share:.0f}",
+                f"time of {100 * share:.0f} % of the change of radius",
+                f"t_{100 * share:.0f}",
+                seconds[1],
+                "s",
+                "section 2.1, eqn:lens_transport",
+                float(convergence_index(*seconds)),
+            )
+        )
+    return _bead_in_si(design, runs[1]), found
+
+
+def _guess(material):
+    """Some relaxation times of the collapsed bead, in its own units."""
+    a = (material.own_start * material.Phi_inf) ** (-1 / 3)
+    D = material.gel.diffusivity(material.own_start * material.Phi_inf, material.hot)
+    return 2.0 * a**2 * material.gel.shear_modulus(1.0) / (np.pi**2 * float(D))
+
+
+def _change(bead, material):
+    """The share of the change of radius that is made at each time."""
+    start = material.own_start ** (-1 / 3)
+    end = (material.own_start * material.Phi_inf) ** (-1 / 3)
+    return (start - bead.radius.values) / (start - end)
+
+
+def _time_of(bead, material, share):
+    """When the share is made, by interpolation in sqrt(t); None if it is not."""
+    from scipy.interpolate import PchipInterpolator
+    from scipy.optimize import brentq
+
+    change, root = _change(bead, material), np.sqrt(bead.t.values)
+    after = np.flatnonzero(change >= share)
+    if not len(after) or after[0] == 0:
+        return None
+    curve = PchipInterpolator(root, change)
+    return float(brentq(lambda s: curve(s) - share, root[after[0] - 1], root[after[0]])) ** 2
+
+
+def _bead_in_si(design, bead):
+    scale = scales(design)
+    time, R_dry = units.si(scale["time"], "s"), units.si(scale["along"], "m")
+    material = design.material
+    over = material.own_start
+    phi = bead.polymer_fraction.values
+    data = {
+        "radius": variable("t", R_dry * bead.radius.values, "m", "radius of the bead"),
+        "r": variable(("t", "cell"), R_dry * bead.r.values, "m", "radial position of the shells"),
+        "r_face": variable(("t", "face"), R_dry * bead.r_face.values, "m", "radii of shell faces"),
+        "polymer_ratio": variable(
+            ("t", "cell"), phi / over, "1", "polymer fraction over that of the swollen bead"
+        ),
+        "surface_polymer_ratio": variable(
+            "t",
+            bead.surface_polymer_fraction.values / over,
+            "1",
+            "polymer fraction at the surface over that of the swollen bead",
+        ),
+        "shed_volume": variable(
+            "t",
+            4 / 3 * np.pi * R_dry**3 * (bead.radius.values[0] ** 3 - bead.radius.values**3),
+            "m^3",
+            "water that the bead has shed",
+        ),
+    }
+    if material.phi_00 is not None:
+        data["polymer_fraction"] = variable(
+            ("t", "cell"), phi / over * material.phi_00, "1", "polymer volume fraction"
+        )
+    t = ("t", time * bead.t.values, {"units": "s", "long_name": "elapsed time"})
+    keep = {key: bead.attrs[key] for key in ("steps", "sweeps", "stopped")}
+    if "stopped_t" in bead.attrs:
+        keep["stopped"] = (
+            f"phases separate after {time * bead.attrs['stopped_t']:.3g} s at "
+            f"r = {R_dry * bead.attrs['stopped_r']:.3g} m: D < 0"
+        )
+    return xr.Dataset(data, coords={"t": t}, attrs=keep)

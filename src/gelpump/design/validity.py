@@ -1,0 +1,157 @@
+"""Whether the assumptions of the model hold for a design, as traffic lights with reasons.
+
+The paper states what must be small or large and gives examples, not limits; the limits are ours.
+Green is where the paper works itself (eps = 0.1, Le = 10), red where a correction is of order one.
+"""
+
+import numpy as np
+
+from gelpump.design import units
+from gelpump.design.description import Design
+from gelpump.design.device import diffusivity, lewis_number
+from gelpump.design.result import Criterion, Light
+
+SLENDER = Criterion("slenderness", "the tube is slender", "eps²", 0.01, 0.1, "section 3.3")
+LEWIS = Criterion("lewis", "heat is faster than water in the gel", "Le", 10.0, 2.0,
+                  "section 3.5", large=True)  # fmt: skip
+COUPLING = Criterion("coupling", "lumen and wall are uncoupled", "G", 1e-2, 1e-1, "appendix B")
+CONTINUUM = Criterion("continuum", "the gel is many pores thick", "thickness/√k", 100.0, 10.0,
+                      "Darcy's law, eqn:fluid_flux", large=True)  # fmt: skip
+ONE_PHASE = Criterion("one_phase", "phases do not separate on the way", "min D/D", 0.1, 1e-12,
+                      "section 2.1.1", large=True)  # fmt: skip
+LINEAR = Criterion("linearisation", "the gel is as linear as the tube takes it", "|Δt/t|", 0.1, 0.5,
+                   "eqn:piecewise_osmotic_pressure")  # fmt: skip
+CLOSE = Criterion("closeness", "Φ₁ is close to Φ₀ but for the front", "share", 0.1, 0.3,
+                  "section 3.3, below eqn:tube_model")  # fmt: skip
+LUMEN_PRESSURE = Criterion("lumen_pressure", "the lumen's pressure is small", "Δp/Π₀₀", 1e-2, 1e-1,
+                           "appendix B, with no slip")  # fmt: skip
+REYNOLDS = Criterion("reynolds", "the lumen's flow is slow", "Re a₀/L", 0.1, 1.0,
+                     "section 3.6.2, Stokes flow")  # fmt: skip
+CRITERIA = (SLENDER, LEWIS, CLOSE, ONE_PHASE, LINEAR, COUPLING, LUMEN_PRESSURE, REYNOLDS, CONTINUUM)
+
+
+def smallest_diffusivity(design: Design, temperature: float | None = None) -> tuple[float, float]:
+    """Least D over that of the swollen gel on the way to the collapsed one, and where (phi)."""
+    material, gel = design.material, design.material.gel
+    low = material.own_start
+    phi = np.linspace(low, low * material.Phi_inf, 2001)
+    T = material.hot if temperature is None else temperature
+    D = gel.diffusivity(phi, T)
+    least = int(D.argmin())
+    return float(D[least] / gel.diffusivity(low, T)), float(phi[least])
+
+
+def own_response_time(design: Design) -> float | None:
+    """t_99 with the gel's own D along the way in place of the tangents'; None if D <= 0 there.
+
+    t = (a_1-a_0)^2/16 Integral dPhi/[Phi^{2/3} D (Phi_inf - Phi)], section 3.4 with the D of
+    eqn:lens_transport.
+    """
+    from scipy.integrate import quad
+
+    material, gel = design.material, design.material.gel
+    if smallest_diffusivity(design)[0] <= 0:
+        return None
+    unit = design.si("permeability") / design.si("viscosity") * material.pressure_unit
+    end = material.Phi_inf
+
+    def per_y(y):  # y = ln[Phi/(Phi_inf - Phi)], as in tube.deswelling
+        Phi = end / (1 + np.exp(-y))
+        return Phi ** (1 / 3) / (
+            end * unit * gel.diffusivity(material.own_start * Phi, material.hot)
+        )
+
+    last = end - (end - 1) / 100
+    ends = (np.log(Phi / (end - Phi)) for Phi in (1.0, last))
+    wall = design.si("a_1") - design.si("a_0")
+    return wall**2 / 16 * quad(per_y, *ends, epsabs=0, epsrel=1e-10)[0]
+
+
+def before_solving(design: Design) -> list[Light]:
+    """The lights that need no solution."""
+    Le, D = lewis_number(design), units.si(diffusivity(design), "m^2/s")
+    k = design.si("permeability")
+    kappa = design.si("thermal_diffusivity")
+    found = []
+    if design.kind == "tube":
+        a_0, a_1, L = (design.si(key) for key in ("a_0", "a_1", "heated_length"))
+        thickness, what = a_1 - a_0, "the wall"
+        found += [
+            Light(
+                SLENDER,
+                (a_1 / L) ** 2,
+                f"eps = a_1/L = {a_1 / L:.3g}; corrections are of order eps²",
+            ),
+            Light(COUPLING, k / a_1**2, f"G = k/a_1² = {k / a_1**2:.2g}"),
+        ]
+    else:
+        thickness, what = design.si("radius"), "the bead"
+    found += [
+        Light(LEWIS, Le, f"Le = {kappa:.2g}/{D:.2g} = {Le:.3g}; flow moves heat by about 1/Le"),
+        Light(CONTINUUM, thickness / k**0.5,
+              f"{what} is {thickness / k**0.5:.2g} times √k = {k**0.5 * 1e9:.2g} nm thick"),
+        *_gel_lights(design),
+    ]  # fmt: skip
+    return _sorted(found)
+
+
+def _gel_lights(design: Design) -> list[Light]:
+    material = design.material
+    if not material.energy_based:
+        return [
+            Light(ONE_PHASE, smallest_diffusivity(design)[0], "D > 0 for every Φ of a linear gel")
+        ]
+    least, phi = smallest_diffusivity(design)
+    if least > 0:
+        reason = f"least D is {least:.3g} of the swollen one, at φ = {phi:.3g}, {design.T_hot:g} K"
+    else:
+        roots = material.gel.spinodal_polymer_fractions(material.hot)
+        reason = (
+            f"D < 0 between φ = {roots[0]:.3g} and {roots[1]:.3g} at {design.T_hot:g} K"
+            if len(roots) == 2
+            else f"D < 0 at φ = {phi:.3g}, {design.T_hot:g} K"
+        ) + ": dry and swollen gel will part, times are not to be trusted"
+    found = [Light(ONE_PHASE, least, reason)]
+    if design.kind == "tube":
+        own = own_response_time(design)
+        from gelpump.design.device import response_time
+
+        mine = response_time(design)
+        value = np.inf if own is None else abs(mine / own - 1)
+        reason = (
+            "the gel's own D is negative on the way, tangents hide it"
+            if own is None
+            else f"t_99 is {mine:.3g} s with the tangents, {own:.3g} s with the gel's own D"
+        )
+        found.append(Light(LINEAR, min(value, 1e9), reason))
+    return found
+
+
+def after_solving(design: Design, data) -> list[Light]:
+    """The lights of a solved tube, at the time when the front has travelled the heated length."""
+    if design.kind == "bead":
+        return []
+    share = float((data.departed_length / data.front_position)[-1])
+    peak = max(
+        float(np.abs(data[f"lumen_velocity_{form}"]).max()) for form in ("printed", "continuous")
+    )
+    a_0, L, mu = design.si("a_0"), design.si("heated_length"), design.si("viscosity")
+    pressure = 8 * mu * peak * L / a_0**2
+    reynolds = design.si("density") * peak * a_0 / mu * a_0 / L
+    front = float(data.front_polymer_ratio[-1])
+    Phi_inf = design.material.Phi_inf
+    return _sorted(
+        [
+            Light(CLOSE, share,
+                  f"{share:.0%} of the heated length is more than a tenth of the jump away from "
+                  f"Φ₀; at the front Φ₁ = {front:.3g} lies between 1 and {Phi_inf:.3g} always"),
+            Light(LUMEN_PRESSURE, pressure / design.material.Pi_00,
+                  f"Poiseuille flow at {peak:.2g} m/s over L needs {pressure:.2g} Pa, "
+                  f"Π₀₀ = {design.material.Pi_00:.2g} Pa"),
+            Light(REYNOLDS, reynolds, f"ρ v a_0²/(mu_l L) = {reynolds:.2g} at v = {peak:.2g} m/s"),
+        ]
+    )  # fmt: skip
+
+
+def _sorted(lights) -> list[Light]:
+    return sorted(lights, key=lambda light: CRITERIA.index(light.criterion))

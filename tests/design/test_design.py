@@ -1,0 +1,248 @@
+"""A design in millimetres and seconds: hand calculations, refusals, units, lights, inverse."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pint
+import pytest
+import yaml
+from scipy.integrate import quad
+from scipy.special import erfinv
+
+from gelpump.design import __main__ as command
+from gelpump.design import description, device, inverse, units, validity
+from gelpump.design.result import AMBER, GREEN, RED
+
+PROJECT = Path(__file__).resolve().parents[2]
+GELS = yaml.safe_load((PROJECT / "config/config.yaml").read_text())["gels"]
+FILES = {file.stem: file for file in (PROJECT / "config/designs").glob("*.yaml")}
+UNIT = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+
+
+def block(name, **changed):
+    return description.read(FILES[name]) | changed
+
+
+def design(name, **changed):
+    return description.checked(name, block(name, **changed), GELS)
+
+
+def number(found, key):
+    return next(each for each in device.results(found) if each.key == key)
+
+
+def hand_time(wall, k, mu, Pi_00, M, Pi_ratio, Phi_inf):
+    """t_99 from section 3.4 as it is printed, in seconds, by adaptive quadrature."""
+    rate = (16 * k * Pi_00 / (mu * wall**2)).to("1/s").magnitude
+    integral, _ = quad(
+        lambda Phi: 1 / ((Phi_inf - Phi) * (Pi_ratio * Phi ** (5 / 3) / Phi_inf + 4 * M / 3 * Phi)),
+        1, Phi_inf - (Phi_inf - 1) / 100, epsabs=0, epsrel=1e-12,
+    )  # fmt: skip
+    return integral / rate
+
+
+def hand_gel(A0, A1, B0, B1, Omega, T, phi, **_):
+    """phi dPi/dphi in units of k_B T/Omega_f by a difference quotient, and Pi itself."""
+
+    def Pi(phi):
+        chi, slope = A0 + B0 * T + (A1 + B1 * T) * phi, A1 + B1 * T
+        return (
+            (phi - phi ** (1 / 3)) / Omega - phi - math.log(1 - phi) - phi**2 * chi
+            + phi**2 * (1 - phi) * slope
+        )  # fmt: skip
+
+    h = 1e-4 * phi
+    slope = (8 * (Pi(phi + h) - Pi(phi - h)) - (Pi(phi + 2 * h) - Pi(phi - 2 * h))) / (12 * h)
+    return phi * slope, Pi(phi)
+
+
+def test_the_microtube_by_hand():
+    found = design("microtube")
+    k, mu, Pi = UNIT("1e-15 m^2"), UNIT("0.89 mPa*s"), UNIT("10 kPa")
+    t_99 = hand_time(UNIT("50 um"), k, mu, Pi, 1.0, 1.0, 2.0)
+    assert number(found, "response_time").value == pytest.approx(t_99, rel=1e-6)
+    kappa, L = UNIT("1.43e-7 m^2/s"), UNIT("2 mm")
+    travel = (L**2 / (4 * erfinv(0.5) ** 2 * kappa)).to("s").magnitude  # erfcinv(1/2) = erfinv(1/2)
+    assert number(found, "travel_time").value == pytest.approx(travel, rel=1e-6)
+    assert number(found, "Lewis_number").value == pytest.approx(
+        (kappa * mu / (k * Pi)).to("").magnitude, rel=1e-12
+    )
+
+
+def test_the_millitube_by_hand():
+    found, gel = design("millitube"), GELS["HHT"]
+    kT = [UNIT("1.380649e-23 J/K") * UNIT.Quantity(T, "K") / UNIT("3e-29 m^3") for T in (303, 307)]
+    phi = found.material.phi_00, found.material.phi_00 * found.material.Phi_inf
+    both = [hand_gel(**gel, T=T, phi=f) for T, f in zip((303, 307), phi, strict=True)]
+    moduli, zeros = zip(*both, strict=True)
+    assert np.abs(zeros).max() < 1e-12
+    Pi_00, Pi_hot = (each * modulus for each, modulus in zip(kT, moduli, strict=True))
+    mu_s = kT[0] * phi[0] ** (1 / 3) / gel["Omega"]
+    t_99 = hand_time(
+        UNIT("0.4 mm"), UNIT("5e-18 m^2"), UNIT("0.89 mPa*s"), Pi_00,
+        (mu_s / Pi_00).to("").magnitude, (Pi_hot / Pi_00).to("").magnitude, phi[1] / phi[0],
+    )  # fmt: skip
+    assert number(found, "response_time").value == pytest.approx(t_99, rel=1e-6)
+    z = (2 * erfinv(0.5) * (UNIT("1.43e-7 m^2/s") * UNIT("100 s")) ** 0.5).to("mm").magnitude
+    assert 10 * 1e3 * number(found, "front_coefficient").value == pytest.approx(z, rel=1e-6)
+
+
+def test_the_bead_by_hand():
+    found, gel = design("bead"), GELS["HHT"]
+    phi = found.material.phi_00 * found.material.Phi_inf
+    modulus, zero = hand_gel(**gel, T=307, phi=phi)
+    assert abs(zero) < 1e-12
+    Pi_hot = modulus * UNIT("1.380649e-23 J/K") * UNIT("307 K") / UNIT("3e-29 m^3")
+    t = (UNIT("0.89 mPa*s") * UNIT("150 um") ** 2 / (UNIT("5e-18 m^2") * Pi_hot)).to("s").magnitude
+    assert number(found, "poroelastic_time").value == pytest.approx(t, rel=1e-6)
+    end = 150e-6 * found.material.Phi_inf ** (-1 / 3)
+    assert number(found, "final_radius").value == pytest.approx(end, rel=1e-12)
+
+
+def test_units_do_not_matter():
+    other = design("microtube", a_0="5e-5 m", a_1="0.1 mm", heated_length="0.2 cm",
+                   permeability="1e-9 mm^2", viscosity="8.9e-4 Pa s",
+                   thermal_diffusivity="0.143 mm²/s", critical_temperature="305.15 K",
+                   heating_step="3 delta_degC")  # fmt: skip
+    for mine, theirs in zip(
+        device.results(design("microtube")), device.results(other), strict=True
+    ):
+        assert theirs.value == pytest.approx(mine.value, rel=1e-12), mine.key
+    for each in device.results(other):
+        assert each.quantity.check(units.registry().parse_units(each.unit).dimensionality)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"a_1": "150 K"}, "a_1 = '150 K': is in K; must be a quantity in m or the like"),
+        ({"a_1": "150"}, "a_1 = '150': is in no unit; must be a quantity in m"),
+        ({"a_1": "150 furlongz"}, "a_1 = '150 furlongz': is in 'furlongz', which is no unit"),
+        ({"a_1": 150}, "a_1 = 150: must be of type string"),
+        ({"a_1": "9**9**9**9 m"}, "is not a number with a unit"),
+        ({"a_1": "__import__('os') m"}, "is not a number with a unit"),
+        ({"a_1": "nan m"}, "is not a number with a unit"),
+        ({"a_1": "1e999 m"}, "is not a finite number"),
+        ({"a_1": "-1 mm"}, "a_1 = '-1 mm': must be greater than 0"),
+        ({"a_0": "100 um"}, "a_0 = '100 um': must be less than a_1 = '100 um'"),
+        ({"a_0": "1 mm"}, "a_0 = '1 mm': must be less than a_1 = '100 um'"),
+        ({"radius": "1 mm"}, "radius = '1 mm': no such key; allowed: ['a_0', 'a_1',"),
+        ({"kind": "cube"}, "kind = 'cube': must be one of ['tube', 'bead']"),
+        ({"heating_step": "3 degC"}, "heating_step = '3 degC': must be a difference"),
+        ({"heating_step": "400 K"}, "heating_step = '400 K': must leave"),
+        ({"gel": "none"}, "gel = 'none': must be one of ['ANB', 'HHT', 'linear']"),
+        ({"gel": "linear"}, "osmotic_modulus is missing"),
+        ({"gel": "HHT", "critical_temperature": "80 degC"}, "must be within 290 to 320 K"),
+        ({"gel": "HHT", "osmotic_modulus": "1 kPa"}, "osmotic_modulus = '1 kPa': not allowed"),
+        ({"wanted": {"response_time": "10 m"}}, "wanted.response_time = '10 m': is in m"),
+        ({"wanted": {"colour": "red"}}, "wanted.colour = 'red': no such key"),
+    ],
+)  # fmt: skip
+def test_refusals_name_key_value_and_what_is_allowed(change, told):
+    with pytest.raises(description.DesignError) as refusal:
+        design("microtube", **change)
+    assert told in str(refusal.value)
+
+
+@pytest.mark.parametrize("key", [k for k in block("microtube") if k not in ("title", "wanted")])
+def test_a_missing_key_is_named(key):
+    rest = block("microtube")
+    del rest[key]
+    with pytest.raises(description.DesignError, match=f"missing.*{key}|{key} is missing"):
+        description.checked("mine", rest, GELS)
+
+
+def test_a_file_that_is_no_design_is_refused(tmp_path):
+    file = tmp_path / "mine.yaml"
+    for text in (
+        "kind: tube\nkind: bead\n",
+        "- 1\n",
+        "kind: !!python/object:os.system x\n",
+        "a: [\n",
+    ):
+        file.write_text(text)
+        with pytest.raises(description.DesignError, match="is refused"):
+            description.checked("mine", description.read(file), GELS)
+
+
+@pytest.mark.parametrize("name", ["microtube", "millitube"])
+@pytest.mark.parametrize("lights", [AMBER, GREEN])
+def test_the_inverse_is_the_forward_solved_again(name, lights):
+    found = design(name)
+    wanted = found.wanted["response_time"].magnitude
+    now = device.response_time(found)
+    a_0, a_1 = found.si("a_0"), found.si("a_1")
+    forward = {
+        "wall": lambda x: device.response_time(found, a_0=a_1 - x),
+        "a_1": lambda x: device.response_time(found, a_1=x),
+        "size": lambda x: device.response_time(found, a_0=x * a_0 / a_1, a_1=x),
+        "permeability": lambda x: device.response_time(found, permeability=x),
+        "osmotic_modulus": lambda x: device.response_time(found, osmotic_modulus=x),
+    }
+    ranges = inverse.ranges(found, wanted, now, lights)
+    assert {each.key for each in ranges} == set(forward)
+    for each in ranges:
+        assert each.feasible, each
+        by_time = [end for end, by in ((each.low, each.low_by), (each.high, each.high_by))
+                   if by == "response time"]  # fmt: skip
+        assert by_time, each
+        assert forward[each.key](by_time[0]) == pytest.approx(wanted, rel=1e-9)
+        for inside in np.linspace(each.low, each.high, 7):
+            assert forward[each.key](inside) <= wanted * (1 + 1e-9)
+
+
+def test_a_range_ends_where_its_light_changes():
+    found = design("microtube")
+    ranges = inverse.ranges(found, 10.0, device.response_time(found), AMBER)
+    widest = next(each for each in ranges if each.key == "size")
+    assert widest.high_by == validity.SLENDER.text
+    for factor, light in ((0.999, AMBER), (1.001, RED)):
+        a_1 = widest.high * factor
+        given = block("microtube", a_0=f"{a_1 / 2:.12g} m", a_1=f"{a_1:.12g} m")
+        lights = validity.before_solving(description.checked("x", given, GELS))
+        slender = next(each for each in lights if each.criterion is validity.SLENDER)
+        assert slender.light == light
+
+
+def test_too_much_is_wanted():
+    found = design("microtube")
+    ranges = inverse.ranges(found, 1e-12, device.response_time(found))
+    assert not any(each.feasible for each in ranges)
+    assert "none" in inverse.sentence(ranges[0])
+
+
+def test_a_jump_through_the_spinodal_is_red():
+    jump = design("millitube", critical_temperature="307.6 K", heating_step="2.4 K")
+    lights = {each.criterion.key: each for each in validity.before_solving(jump)}
+    assert lights["one_phase"].light == RED
+    assert lights["one_phase"].value < 0
+    assert lights["linearisation"].light == RED
+    assert validity.own_response_time(jump) is None
+
+
+def test_the_tangents_are_exact_for_a_small_step():
+    small = design("millitube", critical_temperature="302 K", heating_step="0.01 K")
+    own, mine = validity.own_response_time(small), device.response_time(small)
+    assert mine == pytest.approx(own, rel=1e-3)
+
+
+def test_limits_of_the_formulae():
+    found = design("microtube")
+    assert device.response_time(found, a_0=99e-6) == pytest.approx(
+        device.response_time(found) / 2500, rel=1e-9
+    )
+    slower = design("microtube", viscosity="1.78 mPa*s")
+    assert device.response_time(slower) == pytest.approx(2 * device.response_time(found))
+    assert replace(found, name="other").material == found.material
+
+
+def test_the_command_answers(capsys, monkeypatch):
+    monkeypatch.chdir(PROJECT)
+    assert command.main([str(FILES["microtube"]), "--within", "10 ms"]) == 0
+    said = capsys.readouterr().out
+    assert "response time, heated everywhere" in said
+    assert "thickness of the wall, same outer radius:" in said
+    assert command.main([str(FILES["microtube"]), "--within", "10 mm"]) == 1
+    assert command.main(["no-such-file.yaml"]) == 1

@@ -1,0 +1,97 @@
+# A device in millimetres and seconds: `snakemake --cores 2 design_NAME` for config/designs/NAME.yaml,
+# or for another file with `--config design=path/to/NAME.yaml`.
+
+DESIGNS = {file.stem: file for file in sorted(Path("config/designs").glob("*.yaml"))}
+if config.get("design"):
+    DESIGNS[Path(config["design"]).stem] = Path(config["design"])
+
+
+def design_file(wildcards):
+    if wildcards.name not in DESIGNS:
+        raise WorkflowError(f"no design {wildcards.name!r}: must be one of {sorted(DESIGNS)}")
+    return str(DESIGNS[wildcards.name])
+
+
+def design_gels(block):
+    """The gel that a design names, if it does; the block may be of any kind."""
+    named = block.get("gel") if isinstance(block, dict) else None
+    return {named: config["gels"][named]} if str(named) in config["gels"] else config["gels"]
+
+
+def checked_design(wildcards):
+    """The block of a design that was checked before any job."""
+    from gelpump.design import description
+
+    try:
+        block = description.read(design_file(wildcards))
+        description.checked(wildcards.name, block, config["gels"])
+    except checked.ConfigError as refusal:
+        raise WorkflowError(str(refusal))
+    return block
+
+
+def design_input(wildcards):
+    """The design's file, once it is known to be one."""
+    if workflow.is_main_process:
+        checked_design(wildcards)
+    return design_file(wildcards)
+
+
+rule design:
+    input:
+        file=design_input,
+        texts=["src/gelpump/design/schema.yaml", "src/gelpump/design/sheet.html.j2"],
+        src=modules(
+            *(name for name in PULSE if name != "tube/production"),
+            "bead/__init__",
+            "bead/dataset",
+            "bead/lens",
+            "config",
+            "tables",
+            "text",
+            "tube/budget",
+            "figures/__init__",
+            "figures/style",
+            "figures/design",
+            "design/__init__",
+            "design/dataset",
+            "design/description",
+            "design/device",
+            "design/inverse",
+            "design/material",
+            "design/result",
+            "design/sheet",
+            "design/solve",
+            "design/units",
+            "design/validity",
+        ),
+    output:
+        data="results/designs/{name}.nc",
+        table="results/designs/{name}.csv",
+        page="results/designs/{name}.html",
+        pdf="results/designs/{name}.pdf",
+    log:
+        "results/logs/design_{name}.log",
+    benchmark:
+        "results/benchmarks/design_{name}.tsv"
+    params:
+        block=checked_design,
+        gels=lambda wildcards: design_gels(checked_design(wildcards)),
+        numerics={
+            "tube": config["numerics"]["tube_pulse"],
+            "bead": config["numerics"]["bead_lens"],
+        },
+    script:
+        "../scripts/design.py"
+
+
+for name in DESIGNS:
+
+    rule:
+        name:
+            f"design_{name}"
+        input:
+            f"results/designs/{name}.nc",
+            f"results/designs/{name}.csv",
+            f"results/designs/{name}.html",
+            f"results/designs/{name}.pdf",

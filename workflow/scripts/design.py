@@ -1,0 +1,31 @@
+"""Rule design: a device solved in SI units, with its sheet."""
+
+from _helpers import job
+
+with job(snakemake) as provenance:
+    import io
+
+    from gelpump import netcdf, tables
+    from gelpump.design import dataset, description, sheet
+    from gelpump.figures import design as drawing
+    from gelpump.figures import style
+    from gelpump.text import write_text
+
+    params, name = snakemake.params, snakemake.wildcards.name
+    design = description.checked(name, params.block, params.gels)
+    data = dataset.assemble(design, params.numerics[design.kind])
+    netcdf.write(
+        data,
+        snakemake.output.data,
+        title=f"{design.title}: a design in SI units",
+        parameters={"design": params.block, "gels": params.gels, "numerics": params.numerics},
+        provenance=provenance,
+    )
+    headings = ("key", "meaning", "value", "unit", "uncertainty", "source")
+    columns = [tables.Column(each, each) for each in headings]
+    write_text(tables.csv(columns, dataset.csv_rows(data)), snakemake.output.table)
+    with style.styled():
+        svg = io.StringIO()
+        drawing.pictures(data).savefig(svg, format="svg", metadata=style.METADATA["svg"])
+        write_text(sheet.html(data, svg.getvalue()), snakemake.output.page)
+        style.save(drawing.page(data), [snakemake.output.pdf], provenance)

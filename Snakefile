@@ -30,6 +30,7 @@ include: "workflow/rules/tables.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/evidence.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/article.smk"
 include: "workflow/rules/verify.smk"
 include: "workflow/rules/design.smk"
 include: "workflow/rules/sweep.smk"
@@ -39,4 +40,5 @@ rule all:
     input:
         PRODUCTS,
         "results/manifest.json",
+        "results/replication.pdf",
         "results/ro-crate-metadata.json",

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[1]
-PARTS = ("Snakefile", "config", "profiles", "workflow", "src")
+PARTS = ("Snakefile", "CITATION.cff", "config", "profiles", "workflow", "src")
 
 
 class Clone:

@@ -14,6 +14,7 @@ NOT_LISTED = {
     "results/manifest.json",
     "results/ro-crate-metadata.json",
     "results/report.html",
+    "results/replication.pdf",
     "results/tables/verify.md",
 }
 NOT_RESULTS = (

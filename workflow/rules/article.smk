@@ -1,0 +1,50 @@
+# The replication article: what was found, as a PDF whose numbers all come from the results.
+
+ARTICLE = [
+    "article/__init__",
+    "article/markup",
+    "article/telling",
+    "article/typeset",
+    "claims/__init__",
+    "claims/table",
+    "netcdf",
+    "report/__init__",
+    "report/content",
+    "report/figures",
+    "report/notation",
+]
+
+
+rule article:
+    input:
+        drawings=[figure for figure in FIGURES if figure.endswith(".svg")]
+        + ["results/figures/verification.svg"],
+        tables=[table for table in TABLES if table.endswith(".csv")],
+        told=[
+            "results/claims.json",
+            "results/ledger.json",
+            "results/verification.json",
+            "results/cross_check.json",
+            "CITATION.cff",
+        ],
+        seconds="workflow/reference/seconds.json",
+        captions=[f"workflow/report/{name}.rst" for name in [*TOLD_FIGURES, *TOLD_TABLES]],
+        frame=["src/gelpump/article/article.typ", "src/gelpump/article/references.yml"],
+        src=modules(*ARTICLE),
+    output:
+        report(
+            "results/replication.pdf",
+            caption="../report/article.rst",
+            category="Article",
+            labels={"shows": "the replication article"},
+        ),
+    log:
+        "results/logs/article.log",
+    benchmark:
+        "results/benchmarks/article.tsv"
+    params:
+        config=config,
+        figures=TOLD_FIGURES,
+        tables=TOLD_TABLES,
+    script:
+        "../scripts/article.py"

@@ -15,6 +15,7 @@ ARTICLE = [
 ]
 
 
+
 rule article:
     input:
         drawings=[figure for figure in FIGURES if figure.endswith(".svg")]

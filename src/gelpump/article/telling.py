@@ -109,8 +109,8 @@ def _evidence(content):
     )
     yield (
         f"{len(agreed)} of {len(content.cross_check)} quantities agree with the second solver "
-        "within the sum of the two numerical uncertainties. The one that comes nearest to its limit "
-        f"is the {nearest['quantity']}, with a difference of {nearest['difference']:.1e} where "
+        "within the sum of the two numerical uncertainties. The one that comes nearest to its "
+        f"limit is the {nearest['quantity']}, with a difference of {nearest['difference']:.1e} where "
         f"{nearest['limit']:.1e} is allowed."
     )
 
@@ -118,8 +118,8 @@ def _evidence(content):
 def _reading(content):
     drawn = [str(each.number) for each in content.claims if "figure" in each.where]
     return (
-        f"{len(drawn)} of the {len(content.claims)} statements rest on figures, whose values had to "
-        "be read off the drawings; how well each could be read is part of the comparison."
+        f"{len(drawn)} of the {len(content.claims)} statements rest on figures, whose values "
+        "had to be read off the drawings; how well each could be read is part of the comparison."
     )
 
 

@@ -12,8 +12,8 @@ from gelpump.netcdf import whole
 def typeset(told: Mapping[str, Any], drawings: Mapping[str, Path], path: str | Path) -> None:
     """Write the article to ``path``; a file is whole or not there.
 
-    told: as `telling` gives it.  drawings: the SVG of each figure by its name.  Only fonts that come
-    with Typst are used, and the time in the PDF is fixed.
+    told: as `telling` gives it.  drawings: the SVG of each figure by its name.  Only fonts that
+    come with Typst are used, and the time in the PDF is fixed.
     """
     import typst
 

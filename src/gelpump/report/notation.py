@@ -1,8 +1,8 @@
 """Text with mathematics in it, in a form that any typesetter can take.
 
-A text is a list of runs.  Statements of claims and of the ledger are written in plain ASCII, such as
-"Phi_1 at Z_C for ell = 0.1"; `from_plain` finds their mathematics.  `from_rst` takes what Snakemake's
-own report takes, so that a caption has one source.
+A text is a list of runs.  Statements of claims and of the ledger are written in plain ASCII, such
+as "Phi_1 at Z_C for ell = 0.1"; `from_plain` finds their mathematics.  `from_rst` takes what
+Snakemake's own report takes, so that a caption has one source.
 """
 
 import re

@@ -114,6 +114,7 @@ def value_problems(value, key) -> Iterator[str]:
 
 
 def schema_problems(config, schema) -> Iterator[str]:
+    """What a JSON schema refuses, in words: key, value and what is allowed."""
     from jsonschema import Draft202012Validator
 
     errors = Draft202012Validator(schema).iter_errors(config)

@@ -10,15 +10,33 @@ from gelpump import provenance
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as stream:
     schema = yaml.safe_load(stream)
+
+
+def fitted_gels():
+    """Put what fits them in place of measured gels; the files of their points, by gel."""
+    gels = config.get("gels")
+    blocks = gels.values() if isinstance(gels, dict) else []
+    if not any(isinstance(each, dict) and each.get("model") == "measured" for each in blocks):
+        return {}
+    from gelpump.materials import measured
+
+    try:
+        return measured.resolve(gels, [".", *(Path(file).parent for file in workflow.configfiles)])
+    except ValueError as refusal:
+        raise checked.ConfigError(f"the configuration is refused:\n  gels.{refusal}")
+
+
 if workflow.is_main_process:
     try:
         for file in workflow.configfiles:
             checked.require_plain(file)
+        MEASURED = fitted_gels()
         checked.validate(config, schema)
     except checked.ConfigError as refusal:
         raise WorkflowError(str(refusal))
 else:  # a job of a workflow that was checked when it started
     checked.fill_defaults(config, schema)
+    MEASURED = fitted_gels()
 
 # Priorities of rules: the longest chain of jobs begins first (3), then long jobs (2, 1), so that
 # figures and other short ones fill the gaps.

@@ -3,8 +3,14 @@
 MATERIALS = expand(f"{DATA}/materials_{{gel}}.nc", gel=ENERGY_GELS)
 
 
+def measured_points(wildcards):
+    """The file that a measured gel was fitted to."""
+    return MEASURED.get(wildcards.gel, [])
+
+
 rule materials:
     input:
+        points=measured_points,
         src=modules("netcdf", "materials/tables", *GEL),
     output:
         f"{DATA}/materials_{{gel}}.nc",
@@ -17,3 +23,46 @@ rule materials:
         tables=config["materials"],
     script:
         "../scripts/materials.py"
+
+
+# Your gel: `snakemake --cores 2 gel_NAME` for any energy-based or measured gel of the configuration.
+
+
+rule gel:
+    input:
+        points=measured_points,
+        src=modules(
+            "netcdf",
+            "tables",
+            "text",
+            "materials/tables",
+            "materials/measured",
+            "materials/sheet",
+            "figures/__init__",
+            "figures/style",
+            "figures/gel",
+            *GEL,
+        ),
+    output:
+        data="results/gels/{gel}.nc",
+        table="results/gels/{gel}.csv",
+        figure=expand("results/gels/{{gel}}.{suffix}", suffix=["pdf", "png", "svg"]),
+    log:
+        "results/logs/gel_{gel}.log",
+    benchmark:
+        "results/benchmarks/gel_{gel}.tsv"
+    params:
+        gel=lambda wildcards: config["gels"][wildcards.gel],
+        tables=config["materials"],
+    script:
+        "../scripts/gel.py"
+
+
+for _gel in ENERGY_GELS:
+
+    rule:
+        name:
+            f"gel_{_gel.replace('-', '_')}"
+        input:
+            expand("results/gels/{gel}.{suffix}", gel=_gel, suffix=["nc", "csv", "pdf"]),
+        localrule: True

@@ -21,7 +21,8 @@ NOT_RESULTS = (
     "results/logs/",
     "results/benchmarks/",
     "results/provenance/",
-    "results/designs/",  # asked for by name, as are sweeps: not of the paper's build
+    "results/designs/",  # asked for by name, as are the others: not of the paper's build
+    "results/gels/",
     "results/sweeps/",
 )
 

@@ -1,0 +1,115 @@
+"""Gels fitted to measured equilibria: recovered within their errors, or refused with the line."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gelpump.materials import from_config, measured
+
+T_ERROR, PHI_ERROR = 0.02, 0.002
+
+
+def synthetic(gel, seed, count=48):
+    random = np.random.default_rng(seed)
+    T = np.concatenate([np.linspace(298, 305.5, count // 2), np.linspace(305, 314, count // 2)])
+    branch = ["swollen"] * (count // 2) + ["dry"] * (count // 2)
+    phi = [gel.equilibrium_polymer_fraction(t, b) for t, b in zip(T, branch, strict=True)]
+    return measured.Points(
+        T + T_ERROR * random.normal(size=count),
+        np.array(phi) + PHI_ERROR * random.normal(size=count),
+        np.full(count, T_ERROR),
+        np.full(count, PHI_ERROR),
+        True,
+    )
+
+
+def test_exact_points_give_the_gel_back(anb):
+    points = synthetic(anb, 0)
+    pairs = zip(points.T, points.phi, strict=True)
+    exact = replace(points, phi=np.array([_equilibrium(anb, *pair) for pair in pairs]))
+    found = measured.fit("mine", exact)
+    assert np.allclose(found.parameters, [getattr(anb, n) for n in measured.NAMES], rtol=1e-6)
+    assert found.reduced_chi2 < 1e-10
+
+
+def _equilibrium(gel, T, near):
+    phi, stable = gel.equilibrium_polymer_fractions(T)
+    phi = phi[stable]
+    return phi[np.abs(phi - near).argmin()]
+
+
+def test_the_errors_cover_the_truth(anb):
+    truth = np.array([getattr(anb, name) for name in measured.NAMES])
+    fits = [measured.fit("mine", synthetic(anb, seed)) for seed in range(80)]
+    z = np.array([(each.parameters - truth) / each.errors for each in fits])
+    assert np.all((z.std(axis=0) > 0.75) & (z.std(axis=0) < 1.3)), z.std(axis=0)
+    assert np.all(np.abs(z.mean(axis=0)) < 0.45), z.mean(axis=0)
+    assert 0.55 < (np.abs(z) < 1).mean() < 0.8
+    assert 0.8 < np.mean([each.reduced_chi2 for each in fits]) < 1.2
+
+
+def test_a_few_points_of_one_state_are_warned_of_or_refused(anb):
+    T = np.linspace(298, 300, 8)
+    phi = np.array([anb.equilibrium_polymer_fraction(t) for t in T])
+    points = measured.Points(T, phi, np.full(8, 0.02), np.full(8, 1e-3), True)
+    for seed in range(4):
+        random = np.random.default_rng(seed)
+        noisy = replace(points, phi=phi + 1e-3 * random.normal(size=8))
+        assert told_of(noisy), seed
+
+
+def told_of(points):
+    try:
+        found = measured.fit("mine", points)
+    except ValueError as refusal:
+        return "mine: the points" in str(refusal)
+    return any("not identified" in text for text in found.warnings)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("", "is empty"),
+        ("T,phi\n1,2\n", "line 1: columns"),
+        ("temperature,polymer_fraction\n25,0.1\n", "line 2: temperature = '25': must be kelvin"),
+        ("temperature,polymer_fraction\n300,1.5\n", "line 2: polymer_fraction = '1.5'"),
+        ("temperature,polymer_fraction\n300,x\n", "line 2: polymer_fraction = 'x'"),
+        ("temperature,polymer_fraction\n300\n", "line 2: 1 values: must be 2"),
+        ("temperature,polymer_fraction\n300,nan\n", "line 2: polymer_fraction = 'nan'"),
+        ("temperature,polymer_fraction\n300,0.1\n", "1 points: must be 6 to"),
+        ("temperature,polymer_fraction\n" + "300,0.1\n" * 9, "do not determine five parameters"),
+    ],
+)
+def test_hostile_points_are_refused(tmp_path, text, told):
+    (tmp_path / "points.csv").write_text(text)
+    gels = {"mine": {"model": "measured", "points": "points.csv"}}
+    with pytest.raises(ValueError, match="mine: ") as refusal:
+        measured.resolve(gels, [tmp_path])
+    assert told in str(refusal.value)
+
+
+def test_a_file_that_is_missing_is_named(tmp_path):
+    with pytest.raises(ValueError, match=r"mine: points = 'no.csv': no such file"):
+        measured.resolve({"mine": {"model": "measured", "points": "no.csv"}}, [tmp_path])
+
+
+def test_the_example_is_resolved_to_the_gel_it_was_made_from(anb):
+    gels = {"synthetic": {"model": "measured", "points": "config/gels/synthetic.csv"}}
+    project = Path(__file__).resolve().parents[2]
+    assert measured.resolve(gels, [project]) == {
+        "synthetic": (project / "config/gels/synthetic.csv").as_posix()
+    }
+    found = measured.fit("synthetic", measured.read(project / "config/gels/synthetic.csv"))
+    z = (found.parameters - [getattr(anb, name) for name in measured.NAMES]) / found.errors
+    assert np.abs(z).max() < 3
+    gel = from_config("synthetic", gels["synthetic"])
+    assert abs(gel.folds().temperature.max() - anb.folds().temperature.max()) < 0.1
+
+
+def test_a_jump_through_the_spinodal_is_told(anb, hht):
+    assert "phases separate" in measured.separates(anb, 303.0, 308.0)
+    assert measured.separates(anb, 298.0, 303.0) == ""
+    assert measured.separates(hht, 304.0, 307.6) == ""
+    assert "from 304 K to 308 K" in measured.separates(hht, 304.0, 308.0)

@@ -110,8 +110,8 @@ def _evidence(content):
     yield (
         f"{len(agreed)} of {len(content.cross_check)} quantities agree with the second solver "
         "within the sum of the two numerical uncertainties. The one that comes nearest to its "
-        f"limit is the {nearest['quantity']}, with a difference of {nearest['difference']:.1e} where "
-        f"{nearest['limit']:.1e} is allowed."
+        f"limit is the {nearest['quantity']}, with a difference of {nearest['difference']:.1e} "
+        f"where {nearest['limit']:.1e} is allowed."
     )
 
 

@@ -32,7 +32,9 @@ include: "workflow/rules/evidence.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/article.smk"
 include: "workflow/rules/verify.smk"
+include: "workflow/rules/design_files.smk"
 include: "workflow/rules/design.smk"
+include: "workflow/rules/sweep_plans.smk"
 include: "workflow/rules/sweep.smk"
 
 

@@ -1,41 +1,6 @@
 # A device in millimetres and seconds: `snakemake --cores 2 design_NAME` for config/designs/NAME.yaml,
 # or for another file with `--config design=path/to/NAME.yaml`.
 
-DESIGNS = {file.stem: file for file in sorted(Path("config/designs").glob("*.yaml"))}
-if config.get("design"):
-    DESIGNS[Path(config["design"]).stem] = Path(config["design"])
-
-
-def design_file(wildcards):
-    if wildcards.name not in DESIGNS:
-        raise WorkflowError(f"no design {wildcards.name!r}: must be one of {sorted(DESIGNS)}")
-    return str(DESIGNS[wildcards.name])
-
-
-def design_gels(block):
-    """The gel that a design names, if it does; the block may be of any kind."""
-    named = block.get("gel") if isinstance(block, dict) else None
-    return {named: config["gels"][named]} if str(named) in config["gels"] else config["gels"]
-
-
-def checked_design(wildcards):
-    """The block of a design that was checked before any job."""
-    from gelpump.design import description
-
-    try:
-        block = description.read(design_file(wildcards))
-        description.checked(wildcards.name, block, config["gels"])
-    except checked.ConfigError as refusal:
-        raise WorkflowError(str(refusal))
-    return block
-
-
-def design_input(wildcards):
-    """The design's file, once it is known to be one."""
-    if workflow.is_main_process:
-        checked_design(wildcards)
-    return design_file(wildcards)
-
 
 rule design:
     input:

@@ -1,8 +1,5 @@
 # Sweeps over the tube's parameters: config/sweeps/NAME.yaml is `snakemake --cores 2 sweep_NAME`.
 # A file is read when its sweep is asked for, and only then.
-from functools import cache
-
-from gelpump.sweep import plan
 
 SWEEPS = sorted(path.stem for path in Path("config/sweeps").glob("*.yaml"))
 SOLVING = [
@@ -18,45 +15,6 @@ SOLVING = [
     "sweep/solving",
 ]
 DRAWING = ["netcdf", "figures/__init__", "figures/style", "figures/sweep"]
-
-
-@cache
-def sweep_plan(name):
-    try:
-        return plan.load(f"config/sweeps/{name}.yaml")
-    except checked.ConfigError as refusal:
-        raise WorkflowError(str(refusal))
-
-
-def sweep_params(*keys):
-    """What a rule takes of its sweep's file; all of it but the size of the chunks without keys."""
-    return lambda wildcards: {
-        key: value
-        for key, value in sweep_plan(wildcards.sweep).items()
-        if (key in keys if keys else key != "chunk")
-    }
-
-
-def sweep_chunks(wildcards):
-    count = plan.chunks(sweep_plan(wildcards.sweep))
-    return [f"results/sweeps/{wildcards.sweep}/chunks/{i:06d}.nc" for i in range(count)]
-
-
-def sweep_spacing(wildcards):
-    return {
-        key: (
-            block.get("spaced") == "log"
-            if isinstance(block, dict)
-            else block[0] > 0 and block[-1] > 10 * block[0]
-        )
-        for key, block in sweep_plan(wildcards.sweep)["parameters"].items()
-    }
-
-
-def sweep_products(name):
-    kinds = ["surface"] + (["bars"] if sweep_plan(name)["method"] == "sobol" else [])
-    figures = [f"{kind}.{suffix}" for kind in kinds for suffix in ("pdf", "png", "svg")]
-    return [f"results/sweeps/{name}/{file}" for file in ("sweep.nc", "accuracy.nc", *figures)]
 
 
 wildcard_constraints:

@@ -1,0 +1,43 @@
+# What the rules of a sweep take from its file.
+from functools import cache
+
+from gelpump.sweep import plan
+
+
+@cache
+def sweep_plan(name):
+    try:
+        return plan.load(f"config/sweeps/{name}.yaml")
+    except checked.ConfigError as refusal:
+        raise WorkflowError(str(refusal))
+
+
+def sweep_params(*keys):
+    """What a rule takes of its sweep's file; all of it but the size of the chunks without keys."""
+    return lambda wildcards: {
+        key: value
+        for key, value in sweep_plan(wildcards.sweep).items()
+        if (key in keys if keys else key != "chunk")
+    }
+
+
+def sweep_chunks(wildcards):
+    count = plan.chunks(sweep_plan(wildcards.sweep))
+    return [f"results/sweeps/{wildcards.sweep}/chunks/{i:06d}.nc" for i in range(count)]
+
+
+def sweep_spacing(wildcards):
+    return {
+        key: (
+            block.get("spaced") == "log"
+            if isinstance(block, dict)
+            else block[0] > 0 and block[-1] > 10 * block[0]
+        )
+        for key, block in sweep_plan(wildcards.sweep)["parameters"].items()
+    }
+
+
+def sweep_products(name):
+    kinds = ["surface"] + (["bars"] if sweep_plan(name)["method"] == "sobol" else [])
+    figures = [f"{kind}.{suffix}" for kind in kinds for suffix in ("pdf", "png", "svg")]
+    return [f"results/sweeps/{name}/{file}" for file in ("sweep.nc", "accuracy.nc", *figures)]

@@ -15,7 +15,6 @@ ARTICLE = [
 ]
 
 
-
 rule article:
     input:
         drawings=[figure for figure in FIGURES if figure.endswith(".svg")]

@@ -111,3 +111,8 @@ def bead_gel(wildcards):
 
 def tube_gel(wildcards):
     return config["gels"][config["tube"]["gel"]]
+
+
+def measured_points(wildcards):
+    """The file that a measured gel was fitted to."""
+    return MEASURED.get(wildcards.gel, [])

@@ -3,11 +3,6 @@
 MATERIALS = expand(f"{DATA}/materials_{{gel}}.nc", gel=ENERGY_GELS)
 
 
-def measured_points(wildcards):
-    """The file that a measured gel was fitted to."""
-    return MEASURED.get(wildcards.gel, [])
-
-
 rule materials:
     input:
         points=measured_points,

@@ -51,7 +51,7 @@ class Claim:
 
 @dataclass(frozen=True)
 class Disagreement:
-    """An entry of the ledger."""
+    """An entry of the ledger; source: of the function ``code``, which computed its number."""
 
     id: str
     where: str
@@ -62,6 +62,7 @@ class Disagreement:
     allowed: str
     found: bool
     code: str
+    source: str
     evidence: str
 
     @property
@@ -145,6 +146,14 @@ class Content:
     citation: dict[str, Any]
 
     @property
+    def references(self) -> list[str]:
+        """This replication and the paper, as BibTeX."""
+        return [bibtex("gelpump", self.citation)] + [
+            bibtex(each["authors"][0]["family-names"].lower() + str(each["year"]), each)
+            for each in self.citation["references"]
+        ]
+
+    @property
     def disagreements(self) -> int:
         """How many suspected disagreements were found."""
         return sum(entry.found for entry in self.ledger)
@@ -162,6 +171,28 @@ def percent(share: float) -> str:
     if value and abs(value) < 0.001:
         return f"{value:.0e} %".replace("e-0", "e-")
     return f"{value:.2g} %" if abs(value) < 100 else f"{value:.0f} %"
+
+
+def bibtex(key: str, work: Mapping[str, Any]) -> str:
+    """A work of a CITATION.cff as BibTeX."""
+
+    def name(author):
+        if "name" in author:
+            return f"{{{author['name']}}}"
+        return f"{author['family-names']}, {author['given-names']}"
+
+    fields = {
+        "author": " and ".join(map(name, work["authors"])),
+        "title": f"{{{work['title']}}}",
+        "journal": work.get("journal"),
+        "year": work.get("year"),
+        "version": work.get("version"),
+        "doi": work.get("doi"),
+        "url": work.get("repository-code"),
+    }
+    lines = [f"  {field} = {{{value}}}," for field, value in fields.items() if value is not None]
+    kind = "article" if work["type"] == "article" else "misc"
+    return "\n".join([f"@{kind}{{{key},", *lines, "}"])
 
 
 def gather(
@@ -260,8 +291,20 @@ def disagreement(entry: Mapping[str, Any]) -> Disagreement:
         allowed=numbers(entry["allowed"]),
         found=entry["verdict"] == "disagreement",
         code=entry["code"],
+        source=_source(entry["code"]),
         evidence=entry["evidence"],
     )
+
+
+def _source(code):
+    """The source of a function of the ledger, by its full name."""
+    import inspect
+
+    from gelpump.ledger import beads, materials, tubes
+
+    module, _, function = code.rpartition(".")
+    found = {each.__name__: each for each in (beads, materials, tubes)}[module]
+    return inspect.getsource(getattr(found, function)).rstrip()
 
 
 def numbers(values: float | Sequence[float]) -> str:

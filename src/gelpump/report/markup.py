@@ -1,0 +1,53 @@
+"""Content as HTML: texts with their mathematics as MathML, files as data addresses."""
+
+import re
+from functools import cache
+from html import escape
+from pathlib import Path
+
+from gelpump.report import notation
+from gelpump.report.notation import Text
+
+TAGS = {notation.LITERAL: "code", notation.EMPHASIS: "em", notation.STRONG: "strong"}
+
+
+def html(text: Text) -> str:
+    """A text's runs; everything in them is escaped."""
+    return "".join(map(_run, text))
+
+
+def _run(run):
+    if run.kind == notation.MATH:
+        return mathml(run.text)
+    body = escape(run.text)
+    return f"<{TAGS[run.kind]}>{body}</{TAGS[run.kind]}>" if run.kind in TAGS else body
+
+
+@cache
+def mathml(latex: str) -> str:
+    """LaTeX as MathML, which browsers typeset without a network; ValueError if it is not LaTeX."""
+    from docutils.utils.math import MathError
+    from docutils.utils.math.latex2mathml import tex2mathml
+
+    try:
+        source = tex2mathml(latex)
+    except MathError as refusal:
+        raise ValueError(f"not LaTeX: {latex!r}: {refusal}") from refusal
+    return re.sub(r">\s+<", "><", source).strip()
+
+
+def svg_address(path: str | Path) -> str:
+    """An SVG file as an address to be put between double quotes."""
+    source = Path(path).read_text(encoding="utf-8")
+    source = re.sub(r"<metadata>.*?</metadata>", "", source, flags=re.DOTALL)
+    source = source[source.index("<svg") :]
+    for sign in '%#&"':
+        source = source.replace(sign, f"%{ord(sign):02X}")
+    return "data:image/svg+xml," + re.sub(r"\s*\n\s*", " ", source)
+
+
+def svg_size(path: str | Path) -> tuple[float, float]:
+    """Width and height of an SVG file in points."""
+    head = Path(path).read_text(encoding="utf-8")[:2000]
+    width, height = (re.search(rf'{side}="([\d.]+)pt"', head)[1] for side in ("width", "height"))
+    return float(width), float(height)

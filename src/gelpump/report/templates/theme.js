@@ -1,0 +1,23 @@
+// Light or dark: the system's choice until the reader makes one.
+const root = document.documentElement;
+const systemIsDark = matchMedia("(prefers-color-scheme: dark)");
+const themeListeners = [];
+
+const isDark = () => (root.dataset.theme ? root.dataset.theme === "dark" : systemIsDark.matches);
+
+const themed = (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim();
+
+function themeChanged() {
+  document.getElementById("theme").textContent = isDark() ? "Light" : "Dark";
+  document.getElementById("theme").setAttribute("aria-label", `Switch to ${isDark() ? "light" : "dark"} colours`);
+  themeListeners.forEach((listener) => listener());
+}
+
+function startTheme() {
+  document.getElementById("theme").addEventListener("click", () => {
+    root.dataset.theme = isDark() ? "light" : "dark";
+    themeChanged();
+  });
+  systemIsDark.addEventListener("change", themeChanged);
+  themeChanged();
+}

@@ -1,0 +1,176 @@
+// A tube that collapses behind a pulse of heat, and the flow in its wall and its lumen.
+const TUBE_SECONDS = 7; // of the whole course
+const TUBE_CELLS = ["Phi1", "U_outer", "V_g", "V_printed", "V_continuous"];
+
+class TubeExplorer extends Explorer {
+  constructor() {
+    super("explore-tube");
+    const tubes = (this.tubes = data.tube);
+    this.shape = tubes.Z.shape;
+    this.cells = { Z: unpack(tubes.Z) };
+    for (const name of TUBE_CELLS) this.cells[name] = unpack(tubes[name]);
+    this.ell = place(tubes.ell, 0.5);
+    this.frame = place(tubes.tau, 0.02);
+    this.end = 1.08 * largest(tubes.Z_C);
+    this.slider("ell", tubes.ell.length, this.ell, (i) => printed(tubes.ell[i]), (i) => {
+      this.ell = i;
+      this.show();
+    });
+    this.setTime = this.slider("tau", tubes.tau.length, this.frame, (i) => printed(tubes.tau[i]), (i) => {
+      this.frame = i;
+      this.show();
+    });
+    this.canvas("section", (...all) => this.drawSection(...all));
+    this.canvas("velocity", (...all) => this.drawVelocity(...all));
+    this.show();
+  }
+
+  // The cells at this moment; between two stored times, linear in the square root of tau.
+  now(name) {
+    const at = (frame) => row(this.cells[name], this.shape, this.ell * this.shape[1] + frame);
+    const before = Math.floor(this.frame);
+    const share = this.frame - before;
+    if (!share) return at(before);
+    const [first, second] = [at(before), at(before + 1)];
+    return first.map((value, i) => value + share * (second[i] - value));
+  }
+
+  front() {
+    const { Z_C } = this.tubes;
+    const before = Math.floor(this.frame);
+    const share = this.frame - before;
+    return share ? Z_C[before] + share * (Z_C[before + 1] - Z_C[before]) : Z_C[before];
+  }
+
+  show() {
+    const tubes = this.tubes;
+    const [i, j] = [this.ell, Math.round(this.frame)];
+    this.number("Z_C", printed(tubes.Z_C[j]));
+    for (const name of ["Phi1_front", "A", "V_printed_front", "V_printed_far", "V_continuous_front", "V_continuous_far"]) {
+      this.number(name, printed(tubes[name][i][j]));
+    }
+    this.paint();
+  }
+
+  play() {
+    const tau = this.tubes.tau;
+    const last = tau.length - 1;
+    let root = Math.sqrt(this.frame >= last ? tau[0] : tau[Math.round(this.frame)]);
+    this.animate((seconds) => {
+      if (still.matches) this.frame = Math.min(last, Math.floor(this.frame >= last ? 0 : this.frame + (seconds ? 1 : 0)));
+      else {
+        root = Math.min(root + (seconds / TUBE_SECONDS) * Math.sqrt(tau[last]), Math.sqrt(tau[last]));
+        const after = Math.max(1, place(tau, root * root));
+        const [a, b] = [Math.sqrt(tau[after - 1]), Math.sqrt(tau[Math.min(after, last)])];
+        this.frame = after > last ? last : after - 1 + (root - a) / (b - a);
+      }
+      this.setTime(Math.round(this.frame));
+      this.show();
+      return this.frame < last;
+    });
+  }
+
+  drawSection(context, width, height) {
+    const ell = this.tubes.ell[this.ell];
+    const at = axes(context, width, height, {
+      x: linear(0, this.end), y: linear(-1.14, 1.14), xLabel: "axial position Z = z/L", yLabel: "radius R = r/a₁", top: 26,
+    });
+    const Z = this.now("Z");
+    const Phi1 = this.now("Phi1");
+    const count = Z.length;
+    const Phi_inf = this.tubes.Phi_inf[this.ell];
+    const radius = (i) => Math.cbrt(1 / Phi1[i]);
+    clipped(context, at.box, () => {
+      const edge = (i) => (i < 0 ? 0 : i >= count ? this.end : Z[i]);
+      const cell = (i) => Math.max(0, Math.min(count - 1, i));
+      for (const side of [1, -1]) {
+        for (let i = -1; i < count; i++) {
+          const [left, right] = [at.x(edge(i)), at.x(edge(i + 1))];
+          const [a, b] = [radius(cell(i)), radius(cell(i + 1))];
+          context.fillStyle = shade(((Phi1[cell(i)] + Phi1[cell(i + 1)]) / 2 - 1) / (Phi_inf - 1));
+          context.beginPath();
+          context.moveTo(left, at.y(side * a));
+          context.lineTo(right + 0.6, at.y(side * b));
+          context.lineTo(right + 0.6, at.y(side * b * ell));
+          context.lineTo(left, at.y(side * a * ell));
+          context.fill();
+        }
+        for (const inner of [1, ell]) {
+          const xs = [0, ...Z, this.end];
+          const ys = [radius(0), ...Array.from(Z, (_, i) => radius(i)), radius(count - 1)].map((r) => side * inner * r);
+          line(context, at, xs, ys, { colour: themed("ink"), width: 1.1 });
+          line(context, at, [0, this.end], [side * inner, side * inner], { colour: themed("soft"), width: 1, dash: [1.5, 4] });
+        }
+      }
+      const front = at.x(this.front());
+      line(context, at, [this.front(), this.front()], [-1.14, 1.14], { colour: data.colours.nonlinear, width: 1.4, dash: [6, 4] });
+      words(context, "front", front + 5, at.box.top + 9, { colour: themed("ink") });
+      this.arrows(context, at, Z, radius, ell);
+    });
+    shadeBar(context, Math.max(90, at.box.left + 30), 6, 110, "1", printed(Phi_inf), "polymer fraction Φ₁");
+  }
+
+  arrows(context, at, Z, radius, ell) {
+    const sample = (values, z) => {
+      const after = place(Z, z);
+      if (after === 0) return values[0];
+      if (after >= Z.length) return values[Z.length - 1];
+      return values[after - 1] + ((z - Z[after - 1]) / (Z[after] - Z[after - 1])) * (values[after] - values[after - 1]);
+    };
+    const scaleZ = at.x(1) - at.x(0);
+    const scaleR = at.y(0) - at.y(1);
+    const [U, V_g, V] = ["U_outer", "V_g", "V_printed"].map((name) => this.now(name));
+    const R = Z.map((_, i) => radius(i));
+    const spacing = Math.max(22, (at.box.right - at.box.left) / 30);
+    const front = at.x(this.front());
+    const places = [];
+    for (let x = front - spacing / 2; x > at.box.left; x -= spacing) places.push(x);
+    for (let x = front + spacing / 2; x < at.box.right; x += spacing) places.push(x);
+    const wall = [];
+    const lumen = [];
+    for (const x of places) {
+      const z = (x - at.box.left) / scaleZ;
+      const [u, v, r] = [sample(U, z), sample(V_g, z), sample(R, z)];
+      // U_g is linear across the wall, and vanishes in its middle
+      for (const depth of [0.8, -0.8]) {
+        const s = (1 + ell) / 2 + (depth * (1 - ell)) / 2;
+        wall.push([x, s * r, v * scaleZ, -depth * u * scaleR]);
+      }
+      lumen.push([x, 0, sample(V, z) * scaleZ, 0]);
+    }
+    for (const [kind, look, longest] of [
+      [wall, { colour: "#ffffff", edge: "#000000", width: 1.4 }, 26],
+      [lumen, { colour: themed("link"), width: 2 }, Math.min(46, 1.6 * spacing)],
+    ]) {
+      const size = largest(kind.map(([, , dx, dy]) => Math.hypot(dx, dy)));
+      if (!(size > 0)) continue;
+      for (const [x, R, dx, dy] of kind) {
+        if (Math.hypot(dx, dy) < 0.08 * size) continue;
+        const [ax, ay] = [(dx / size) * longest, (dy / size) * longest];
+        arrow(context, x, at.y(R), ax, ay, look);
+        if (kind === wall) arrow(context, x, at.y(-R), ax, -ay, look);
+      }
+    }
+  }
+
+  drawVelocity(context, width, height) {
+    const { highest } = this.tubes;
+    const top = 1.1 * Math.max(highest.printed[this.ell], Math.min(highest.continuous[this.ell], 6 * highest.printed[this.ell]));
+    const at = axes(context, width, height, {
+      x: linear(0, this.end), y: linear(0, top), xLabel: "axial position Z = z/L", yLabel: "lumen velocity V",
+    });
+    const Z = this.now("Z");
+    const extended = (values) => [0, ...values, values[values.length - 1]];
+    const xs = [0, ...Z, this.end];
+    clipped(context, at.box, () => {
+      for (const [name, dash, colour] of [
+        ["V_continuous", [], data.colours.cases[2]],
+        ["V_printed", [7, 4], themed("link")],
+      ]) line(context, at, xs, extended(this.now(name)), { colour, dash, width: 2 });
+      line(context, at, [this.front(), this.front()], [0, top], { colour: data.colours.nonlinear, width: 1.4, dash: [6, 4] });
+    });
+    const x = at.box.right - 8;
+    words(context, "– –  as printed in eqn:lumen", x, at.box.top + 14, { colour: themed("link"), align: "right" });
+    words(context, "——  water conserved", x, at.box.top + 32, { colour: themed("reproduced"), align: "right" });
+  }
+}

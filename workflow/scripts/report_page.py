@@ -1,0 +1,35 @@
+"""Rule report_page: everything that was found, on one page."""
+
+from _helpers import job
+
+with job(snakemake) as provenance:
+    from pathlib import Path
+
+    from gelpump import netcdf
+    from gelpump.report import embedded, page
+    from gelpump.report.content import gather
+    from gelpump.text import write_text
+
+    params, files = snakemake.params, snakemake.input
+    content = gather(params.config, params.figures, params.tables, provenance.inputs)
+    cases = params.config["beads"]
+    explorers = {
+        "tube": embedded.tubes(netcdf.read(files.pulse), netcdf.read(files.fit)),
+        "beads": embedded.beads(
+            {
+                case: {
+                    model: netcdf.read(f"results/data/bead_{case}_{model}.nc")
+                    for model in ("lens", "nonlinear")
+                }
+                for case in cases
+            },
+            cases,
+            params.published,
+        ),
+        "gels": {
+            Path(file).stem.removeprefix("materials_"): embedded.gel(netcdf.read(file))
+            for file in files.materials
+        },
+    }
+    output = Path(snakemake.output[0])
+    write_text(page.render(content, explorers, output.parent), output)

@@ -15,3 +15,64 @@ def told(name):
 TOLD_FIGURES = {Path(file).stem: told(Path(file).stem) for file in FIGURES if file.endswith(".png")}
 TOLD_FIGURES["verification"] = told("verification")
 TOLD_TABLES = {Path(file).stem: told(Path(file).stem) for file in TABLES if file.endswith(".csv")}
+PAGE_TEMPLATES = sorted(map(str, Path("src/gelpump/report/templates").glob("*.*")))
+
+
+def radii_read_off(case):
+    """Radii that were read off the paper's figure of this case, by model."""
+    verb = {"swelling": "swell", "drying": "dry"}.get(case)
+    claimed = {model: f"{verb}-radius-{model}" for model in ("lens", "nonlinear")}
+    known = config["published"]
+    return {model: known[claim]["value"] for model, claim in claimed.items() if claim in known}
+
+
+rule report_page:
+    input:
+        verdicts=["results/claims.json", "results/ledger.json", *CHECKS],
+        data=[
+            *(file for file in [*MATERIALS, *BEADS, *TUBES, *SENSITIVITIES] if file not in CHECKS)
+        ],
+        pulse=f"{DATA}/tube_pulse.nc",
+        fit=f"{DATA}/front_fit.nc",
+        materials=MATERIALS,
+        drawings=[*FIGURES, *TABLES],
+        captions=[told["caption"] for told in [*TOLD_FIGURES.values(), *TOLD_TABLES.values()]],
+        templates=PAGE_TEMPLATES,
+        told=["CITATION.cff", "workflow/reference/seconds.json"],
+        src=modules(
+            "netcdf",
+            "text",
+            "claims/__init__",
+            "claims/table",
+            "figures/__init__",
+            "figures/style",
+            "ledger/__init__",
+            "ledger/entry",
+            "ledger/materials",
+            "ledger/beads",
+            "ledger/tubes",
+            "tube/__init__",
+            "tube/flow",
+            "tube/front",
+            "tube/lumen",
+            "report/__init__",
+            "report/content",
+            "report/embedded",
+            "report/figures",
+            "report/markup",
+            "report/notation",
+            "report/page",
+        ),
+    output:
+        "results/report.html",
+    log:
+        "results/logs/report_page.log",
+    benchmark:
+        "results/benchmarks/report_page.tsv"
+    params:
+        config=config,
+        figures=TOLD_FIGURES,
+        tables=TOLD_TABLES,
+        published={case: radii_read_off(case) for case in config["beads"]},
+    script:
+        "../scripts/report_page.py"

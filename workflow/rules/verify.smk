@@ -11,6 +11,7 @@ PRODUCTS = [
     "results/ledger.json",
     "results/tables/ledger.md",
     *CHECKS,
+    "results/report.html",
 ]
 VERIFY = [
     "netcdf",

@@ -51,7 +51,7 @@ class Claim:
 
 @dataclass(frozen=True)
 class Disagreement:
-    """An entry of the ledger; source: of the function ``code``, which computed its number."""
+    """An entry of the ledger."""
 
     id: str
     where: str
@@ -62,7 +62,6 @@ class Disagreement:
     allowed: str
     found: bool
     code: str
-    source: str
     evidence: str
 
     @property
@@ -291,20 +290,8 @@ def disagreement(entry: Mapping[str, Any]) -> Disagreement:
         allowed=numbers(entry["allowed"]),
         found=entry["verdict"] == "disagreement",
         code=entry["code"],
-        source=_source(entry["code"]),
         evidence=entry["evidence"],
     )
-
-
-def _source(code):
-    """The source of a function of the ledger, by its full name."""
-    import inspect
-
-    from gelpump.ledger import beads, materials, tubes
-
-    module, _, function = code.rpartition(".")
-    found = {each.__name__: each for each in (beads, materials, tubes)}[module]
-    return inspect.getsource(getattr(found, function)).rstrip()
 
 
 def numbers(values: float | Sequence[float]) -> str:

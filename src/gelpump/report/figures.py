@@ -17,103 +17,88 @@ DRAWINGS = {
     "fig01_lens_schematic": Drawing(
         "How LENS splits a deformation",
         "Three drawings. A disc of evenly spaced rings and wedges; the same disc smaller, its "
-        "outer "
-        "rings drawn together, inside a dotted outline of the first; and two of its elements, each "
-        "with its reference, isotropic and true outline.",
+        "outer rings drawn together, inside a dotted outline of the first; and two of its "
+        "elements, each with its reference, isotropic and true outline.",
     ),
     "fig02_osmotic_schema": Drawing(
         "Osmotic pressure on either side of the transition",
-        "Two curves of osmotic pressure over polymer fraction, a colder and a hotter one, "
-        "with dots "
-        "where they cross zero. The hotter crosses at a larger polymer fraction; the area of "
-        "negative "
-        "pressure before it is shaded.",
+        "Two curves of osmotic pressure over polymer fraction, a colder and a hotter one, with "
+        "dots where they cross zero. The hotter crosses at a larger polymer fraction; the area "
+        "of negative pressure before it is shaded.",
     ),
     "fig03_swell_bead": Drawing(
         "A bead swells",
         "Left: a map of polymer fraction over logarithmic time and radius, with rising curves "
-        "of the "
-        "bead's radius from two models that nearly coincide. Right: radial profiles of polymer "
-        "fraction, from high and flat to low and flat, whose steep part moves inwards.",
+        "of the bead's radius from two models that nearly coincide. Right: radial profiles of "
+        "polymer fraction, from high and flat to low and flat, whose steep part moves inwards.",
     ),
     "fig04_dry_bead": Drawing(
         "A bead dries",
-        "Left: a map of polymer fraction over time and radius, with falling curves of the bead's "
-        "radius from two models. Right: radial profiles of polymer fraction, which rise from the "
-        "surface inwards and stay low at the centre.",
+        "Left: a map of polymer fraction over time and radius, with falling curves of the "
+        "bead's radius from two models. Right: radial profiles of polymer fraction, which rise "
+        "from the surface inwards and stay low at the centre.",
     ),
     "fig05_spinodal": Drawing(
         "Beads in the plane of temperature and polymer fraction",
         "A grey region of negative diffusivity beside an S-shaped equilibrium curve. Paths of "
-        "beads "
-        "jump sideways in temperature, then run up or down; one ends with a cross at the grey "
-        "region. "
-        "An inset enlarges the fold.",
+        "beads jump sideways in temperature, then run up or down; one ends with a cross at the "
+        "grey region. An inset enlarges the fold.",
     ),
     "fig06_tube_schematic": Drawing(
         "A tube, partly collapsed",
-        "A hollow tube cut open along its axis: narrow and dark on the left, where it is hot, wide "
-        "and pale on the right, with a smooth step at the front. Inner and outer radii are "
-        "marked on "
-        "either side.",
+        "A hollow tube cut open along its axis: narrow and dark on the left, where it is hot, "
+        "wide and pale on the right, with a smooth step at the front. Inner and outer radii are "
+        "marked on either side.",
     ),
     "fig07_deswelling": Drawing(
         "How fast a tube that is heated everywhere deswells",
         "Left: a map of the deswelling time over shear parameter and osmotic pressure ratio, "
-        "slow in "
-        "the lower left corner. Right: polymer fraction over time, one rising curve for each wall "
-        "thickness, thin walls fastest.",
+        "slow in the lower left corner. Right: polymer fraction over time, one rising curve for "
+        "each wall thickness, thin walls fastest.",
     ),
     "fig08_profiles": Drawing(
         "A pulse of heat travels along a tube",
         "Two sections of a tube coloured by polymer fraction, one below the other; the step "
-        "between "
-        "the collapsed and the swollen part is further right in the later one.",
+        "between the collapsed and the swollen part is further right in the later one.",
     ),
     "fig09_relax": Drawing(
         "The drying front and its sharpness",
-        "Left: polymer fraction across the front, steeper for thinner walls, with the tanh curves "
-        "that fit best and an inset around the front. Right: fitted sharpness over one minus "
-        "ell on "
-        "logarithmic axes, dots on a straight falling line, published circles above it for "
-        "thin walls.",
+        "Left: polymer fraction across the front, steeper for thinner walls, with the tanh "
+        "curves that fit best and an inset around the front. Right: fitted sharpness over one "
+        "minus ell on logarithmic axes, dots on a straight falling line, published circles "
+        "above it for thin walls.",
     ),
     "fig10_flow": Drawing(
         "Flow around the drying front",
-        "Two sections of a tube's wall coloured by polymer fraction, with arrows: out of the wall "
-        "behind the front, into it ahead of the front, and along the lumen.",
+        "Two sections of a tube's wall coloured by polymer fraction, with arrows: out of the "
+        "wall behind the front, into it ahead of the front, and along the lumen.",
     ),
     "fig11_flow_close": Drawing(
         "Interstitial flow close to the front",
-        "Two enlarged sections of the wall at the front, a thick and a thin one, with arrows "
-        "of the "
-        "flow in the gel, outwards behind and inwards ahead of the front.",
+        "Two enlarged sections of the wall at the front, a thick and a thin one, with arrows of "
+        "the flow in the gel, outwards behind and inwards ahead of the front.",
     ),
     "fig12_axial_flow": Drawing(
         "The pulse of water in the lumen",
-        "Top: axial velocity along the tube at several times, each a peak with a lower "
-        "plateau ahead "
-        "of it. Below: its maximum over the sharpness, a falling line on logarithmic axes, "
-        "and over "
-        "one minus ell, falling as well.",
+        "Top: axial velocity along the tube at several times, each a peak with a lower plateau "
+        "ahead of it. Below: its maximum over the sharpness, a falling line on logarithmic "
+        "axes, and over one minus ell, falling as well.",
     ),
     "fig13_osmotic": Drawing(
         "Osmotic pressure of the two gels",
         "Two panels of osmotic pressure over polymer fraction, a family of curves from cold, "
-        "blue, to "
-        "hot, red, each with a dot at its equilibrium and an inset around the swollen ones.",
+        "blue, to hot, red, each with a dot at its equilibrium and an inset around the swollen "
+        "ones.",
     ),
     "fig14_equilibrium": Drawing(
         "Equilibrium polymer fraction",
         "Two panels of equilibrium polymer fraction over temperature. Each curve is S-shaped "
-        "with two "
-        "folds, wide apart in the first gel and close together, enlarged by an inset, in the "
-        "second.",
+        "with two folds, wide apart in the first gel and close together, enlarged by an inset, "
+        "in the second.",
     ),
     "verification": Drawing(
         "Errors of the solvers on known solutions",
         "Errors over the number of cells and of time steps on logarithmic axes, falling along "
-        "dashed "
-        "lines of the formal orders.",
+        "dashed lines of the formal orders.",
     ),
 }

@@ -60,6 +60,7 @@ def render(content: Content, explorers: Mapping[str, Any], folder: Path) -> str:
         "svg_size": markup.svg_size,
         "kilobytes": lambda size: f"{size / 1000:,.0f} kB",
         "scientific": scientific,
+        "source": source,
         "plain_text": lambda text: as_it_is(markup.html(notation.from_plain(text))),
     }
     return environment.get_template("page.html").render(
@@ -95,3 +96,14 @@ def scientific(value: float) -> str:
     return f"{mantissa}×10" + str(int(exponent)).translate(
         str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
     )
+
+
+def source(code: str) -> str:
+    """The source of a function of the ledger, by its full name."""
+    import inspect
+
+    from gelpump.ledger import beads, materials, tubes
+
+    module, _, function = code.rpartition(".")
+    found = {each.__name__: each for each in (beads, materials, tubes)}[module]
+    return inspect.getsource(getattr(found, function)).rstrip()

@@ -16,6 +16,7 @@ FORMATS = {
     ".pdf": "application/pdf",
     ".png": "image/png",
     ".svg": "image/svg+xml",
+    ".html": "text/html",
 }
 LICENSE = "https://spdx.org/licenses/MIT"
 

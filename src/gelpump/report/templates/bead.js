@@ -18,10 +18,10 @@ class BeadExplorer extends Explorer {
       this.pause();
       this.choose(event.target.value);
     });
+    this.choose(this.control("case").value);
     this.canvas("disc", (...all) => this.drawDisc(...all));
     this.canvas("profile", (...all) => this.drawProfile(...all));
     this.canvas("course", (...all) => this.drawCourse(...all));
-    this.choose(this.control("case").value);
   }
 
   choose(name) {

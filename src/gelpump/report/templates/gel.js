@@ -15,12 +15,12 @@ class GelExplorer extends Explorer {
       this.pause();
       this.choose(event.target.value);
     });
-    this.canvas("pressure", (...all) => this.drawPressure(...all));
-    this.canvas("plane", (...all) => this.drawPlane(...all));
     const names = Object.keys(this.gels);
     const pumped = names.find((name) => Object.values(data.beads).some((bead) => bead.gel === name));
     this.control("gel").value = pumped || names[0];
     this.choose(this.control("gel").value);
+    this.canvas("pressure", (...all) => this.drawPressure(...all));
+    this.canvas("plane", (...all) => this.drawPlane(...all));
   }
 
   choose(name) {

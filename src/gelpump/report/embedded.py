@@ -83,7 +83,10 @@ def tubes(pulse: "xr.Dataset", fit: "xr.Dataset") -> dict[str, Any]:
         "A": digits(fit.A_tau.sel(ell=pulse.ell, tau=pulse.tau, method="nearest")),
         **{f"V_{name}_front": digits(V[..., front]) for name, V in faces.items()},
         **{f"V_{name}_far": digits(V[..., -1]) for name, V in faces.items()},
-        "highest": {name: digits(V.max(axis=(1, 2))) for name, V in faces.items()},
+        "limits": {
+            "printed": digits(faces["printed"].max(axis=(1, 2))),
+            "low": digits(faces["continuous"][:, pulse.sizes["tau"] // 2 :].min(axis=(1, 2))),
+        },
         "Z": float32(pulse.Z.values[..., kept]),
         **{name: uint16(values[..., kept], rows=2) for name, values in cells.items()},
     }

@@ -16,6 +16,16 @@ def html(text: Text) -> str:
     return "".join(map(_run, text))
 
 
+def caption(paragraphs: list[Text]) -> str:
+    """The paragraphs of a caption in one, with the mathematics in its plain text."""
+
+    def told(run):
+        plain = run.text.replace("k_BT", "k_B T")  # two letters that are not one subscript
+        return html(notation.from_plain(plain) if run.kind == notation.TEXT else [run])
+
+    return " ".join("".join(map(told, paragraph)) for paragraph in paragraphs)
+
+
 def _run(run):
     if run.kind == notation.MATH:
         return mathml(run.text)
@@ -34,6 +44,17 @@ def mathml(latex: str) -> str:
     except MathError as refusal:
         raise ValueError(f"not LaTeX: {latex!r}: {refusal}") from refusal
     return re.sub(r">\s+<", "><", source).strip()
+
+
+def number(text: str) -> str:
+    """Printed numbers with signs and powers as they are set: "-2 ± 9e-16" as "−2 ± 9×10⁻¹⁶"."""
+
+    def power(found):
+        exponent = str(int(found[2])).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+        return f"{found[1]}×10{exponent}"
+
+    text = re.sub(r"(\d)e([-+]?\d+)", power, text)
+    return re.sub(r"(?<!\w)-(?=\d)", "−", text).replace(" ± ", "\u00a0±\u00a0")
 
 
 def svg_address(path: str | Path) -> str:

@@ -32,7 +32,9 @@ GREEK = {
     "Omega": r"\Omega",
     "kappa": r"\kappa",
 }
+LETTERS = {"μ": r"\mu", "Φ": r"\Phi"}
 SUBSCRIPTS = {
+    "∞": r"\infty",
     "inf": r"\infty",
     "max": r"\mathrm{max}",
     "BMJ": r"\mathrm{BMJ}",
@@ -44,7 +46,7 @@ ATOM = re.compile(
     | (?<![\w.])(?P<mantissa>\d+(?:\.\d+)?)e(?P<exponent>[-+]?\d+)(?!\w)
     | (?<!\w)(?P<differential>d?)
       (?:(?P<greek>{"|".join(sorted(GREEK, key=len, reverse=True))})(?:_(?P<sub>\w+))?
-        | (?P<letter>[A-Za-z])(?:_(?P<lettersub>\w+)|(?=\^)))
+        | (?P<letter>[A-Za-zμΦ])(?:_(?P<lettersub>\w+|∞)|(?=\^)))
       (?P<tilde>~?)(?:\^(?P<power>\([^()]*\)|-?[\d.]*\d))?(?!\w)
     | \)\^(?P<outer>\([^()]*\)|-?[\d.]*\d)
     """,
@@ -79,7 +81,8 @@ def _run(found: re.Match) -> Run:
         return Run(MATH, f"{factor}10^{{{int(found['exponent'])}}}")
     if found["outer"]:
         return Run(MATH, f")^{{{_power(found['outer'])}}}")
-    symbol = GREEK.get(found["greek"], found["letter"])
+    letter = found["letter"]
+    symbol = GREEK.get(found["greek"]) or LETTERS.get(letter, letter)
     if found["tilde"]:
         symbol = rf"\tilde{{{symbol}}}"
     if subscript := found["sub"] or found["lettersub"]:

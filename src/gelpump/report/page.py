@@ -53,6 +53,7 @@ def render(content: Content, explorers: Mapping[str, Any], folder: Path) -> str:
     )
     environment.filters |= {
         "html": lambda text: as_it_is(markup.html(text)),
+        "caption": lambda paragraphs: as_it_is(markup.caption(paragraphs)),
         "math": lambda latex: as_it_is(markup.mathml(latex)),
         "beside": lambda path: Path(path).relative_to(folder).as_posix(),
         "stem": lambda path: Path(path).stem,
@@ -60,6 +61,7 @@ def render(content: Content, explorers: Mapping[str, Any], folder: Path) -> str:
         "svg_size": markup.svg_size,
         "kilobytes": lambda size: f"{size / 1000:,.0f} kB",
         "scientific": scientific,
+        "number": markup.number,
         "source": source,
         "plain_text": lambda text: as_it_is(markup.html(notation.from_plain(text))),
     }
@@ -90,12 +92,8 @@ def embed(data: Any) -> str:
 
 def scientific(value: float) -> str:
     """A small number to two digits: 1.3×10⁻⁴; zero and numbers near one as they are."""
-    if value == 0 or 0.01 <= abs(value) < 1000:
-        return f"{value:.2g}"
-    mantissa, exponent = f"{value:.1e}".split("e")
-    return f"{mantissa}×10" + str(int(exponent)).translate(
-        str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-    )
+    near = value == 0 or 0.01 <= abs(value) < 1000
+    return markup.number(f"{value:.2g}" if near else f"{value:.1e}")
 
 
 def source(code: str) -> str:

@@ -29,8 +29,8 @@ class BeadExplorer extends Explorer {
     this.t = bead.models.lens.t;
     this.frame = Math.floor(this.t.length / 3);
     const lens = bead.models.lens;
-    // a long-lived start is read on a logarithmic axis
-    this.logarithmic = this.t[Math.floor(this.t.length / 2)] < 0.05 * this.t[this.t.length - 1];
+    // a course that is stored densely at its start is read on a logarithmic axis
+    this.logarithmic = this.t[Math.floor(this.t.length / 2)] < 0.2 * this.t[this.t.length - 1];
     const all = Object.values(bead.models);
     this.low = smallest(all.map((model) => smallest([smallest(model.phi), smallest(model.surface)])));
     this.high = largest(all.map((model) => largest([largest(model.phi), largest(model.surface)])));

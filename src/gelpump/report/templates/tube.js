@@ -154,20 +154,22 @@ class TubeExplorer extends Explorer {
   }
 
   drawVelocity(context, width, height) {
-    const { highest } = this.tubes;
-    const top = 1.1 * Math.max(highest.printed[this.ell], Math.min(highest.continuous[this.ell], 6 * highest.printed[this.ell]));
+    const { printed: high, low } = this.tubes.limits;
+    const top = 1.25 * high[this.ell];
+    const bottom = Math.max(low[this.ell], -0.5 * top) * 1.15;
     const at = axes(context, width, height, {
-      x: linear(0, this.end), y: linear(0, top), xLabel: "axial position Z = z/L", yLabel: "lumen velocity V",
+      x: linear(0, this.end), y: linear(bottom, top), xLabel: "axial position Z = z/L", yLabel: "lumen velocity V",
     });
     const Z = this.now("Z");
     const extended = (values) => [0, ...values, values[values.length - 1]];
     const xs = [0, ...Z, this.end];
     clipped(context, at.box, () => {
+      line(context, at, [0, this.end], [0, 0], { colour: themed("soft"), width: 1 });
       for (const [name, dash, colour] of [
         ["V_continuous", [], data.colours.cases[2]],
         ["V_printed", [7, 4], themed("link")],
       ]) line(context, at, xs, extended(this.now(name)), { colour, dash, width: 2 });
-      line(context, at, [this.front(), this.front()], [0, top], { colour: data.colours.nonlinear, width: 1.4, dash: [6, 4] });
+      line(context, at, [this.front(), this.front()], [bottom, top], { colour: data.colours.nonlinear, width: 1.4, dash: [6, 4] });
     });
     const x = at.box.right - 8;
     words(context, "– –  as printed in eqn:lumen", x, at.box.top + 14, { colour: themed("link"), align: "right" });

@@ -5,6 +5,7 @@ import os
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import pytest
+from clone import Clone
 
 from gelpump.materials import EnergyBasedGel
 
@@ -17,6 +18,21 @@ def hht() -> EnergyBasedGel:
 @pytest.fixture(scope="session")
 def anb() -> EnergyBasedGel:
     return EnergyBasedGel("ANB", -12.947, 17.92, 0.04496, -0.0569, 100.0, (290.0, 320.0))
+
+
+@pytest.fixture
+def clone(tmp_path) -> Clone:
+    """A clean clone, in a path with a space and a letter beyond ASCII."""
+    return Clone(tmp_path / "a clöne")
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory) -> Clone:
+    """A clone in which everything was built with the quick configuration."""
+    clone = Clone(tmp_path_factory.mktemp("built") / "project")
+    result = clone.snakemake()
+    assert result.returncode == 0, result.stdout + result.stderr
+    return clone
 
 
 SLOWER = ("hostile", "verification", "second", "test_verify.py")

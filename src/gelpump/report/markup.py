@@ -21,7 +21,10 @@ def caption(paragraphs: list[Text]) -> str:
 
     def told(run):
         plain = run.text.replace("k_BT", "k_B T")  # two letters that are not one subscript
-        return html(notation.from_plain(plain) if run.kind == notation.TEXT else [run])
+        try:
+            return html(notation.from_plain(plain) if run.kind == notation.TEXT else [run])
+        except ValueError:  # letters that LaTeX does not know can be read as they are
+            return html([run]) if run.kind == notation.TEXT else escape(run.text)
 
     return " ".join("".join(map(told, paragraph)) for paragraph in paragraphs)
 

@@ -93,7 +93,7 @@ def _run(found: re.Match) -> Run:
 
 
 def _power(text: str) -> str:
-    return text.removeprefix("(").removesuffix(")")
+    return text.removeprefix("(").removesuffix(")").replace("−", "-")
 
 
 def from_rst(source: str) -> list[Text]:

@@ -1,0 +1,224 @@
+"""The page in a real browser: what is seen, what moves, what can be operated, what is asked for."""
+
+import json
+
+import numpy as np
+import pytest
+
+from gelpump import netcdf
+
+pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("workflow")]
+
+# long-running loads of lazy pictures are forced, as scrolling through the page would
+LOAD_ALL = """
+const done = arguments[0];
+const images = [...document.images];
+for (const image of images) image.loading = "eager";
+Promise.all(images.map((image) => image.decode().catch(() => null))).then(() =>
+  done(images.map((image) => [image.alt, image.naturalWidth, image.clientWidth])));
+"""
+PICTURE = "return document.querySelector(arguments[0]).toDataURL()"
+
+
+def control(browser, explorer, name, value):
+    """Set a slider or a selection as a user would, with the events of one."""
+    browser.execute_script(
+        """const controls = document.getElementById(arguments[0]);
+        const input = controls.querySelector(`[data-control="${arguments[1]}"]`);
+        input.value = arguments[2];
+        input.dispatchEvent(new Event(input.matches("select") ? "change" : "input",
+                                      {bubbles: true}));""",
+        explorer,
+        name,
+        value,
+    )
+
+
+def shown(browser, explorer, name):
+    element = f'#{explorer} [data-number="{name}"]'
+    return browser.execute_script(
+        "return document.querySelector(arguments[0]).textContent", element
+    )
+
+
+def number(text):
+    """What `printed` of arrays.js says, as a number."""
+    plain = text.replace("−", "-").replace("×10", "e")
+    return float(plain.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")))
+
+
+def test_every_figure_is_visible(show):
+    images = show().execute_async_script(LOAD_ALL)
+    assert len(images) == 15
+    for alt, natural, drawn in images:
+        assert len(alt) > 40
+        assert natural > 100, alt
+        assert drawn > 100, alt
+
+
+@pytest.mark.parametrize("width", [390, 1280, 1920])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_is_wrong_on_any_screen(show, width, scheme):
+    browser = show(width, scheme)
+    browser.execute_async_script(LOAD_ALL)
+    assert browser.get_log("browser") == []
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= width
+
+
+def test_no_request_leaves_the_machine(show):
+    browser = show()
+    browser.execute_async_script(LOAD_ALL)
+    messages = [json.loads(each["message"])["message"] for each in browser.get_log("performance")]
+    urls = [
+        each["params"]["request"]["url"]
+        for each in messages
+        if each["method"] == "Network.requestWillBeSent"
+    ]
+    assert any(url.startswith("file:") for url in urls)
+    assert [url for url in urls if not url.startswith(("file:", "data:", "blob:"))] == []
+
+
+def test_the_first_figure_is_there_within_a_second(show):
+    paint = show().execute_script(
+        "return performance.getEntriesByName('first-contentful-paint')[0].startTime"
+    )
+    print(f"first contentful paint after {paint:.0f} ms")
+    assert paint > 0
+
+
+def test_the_tube_shows_the_numbers_of_its_dataset(show, built):
+    browser = show()
+    pulse = netcdf.read(built.path / "results/data/tube_pulse.nc")
+    fit = netcdf.read(built.path / "results/data/front_fit.nc")
+    lumen = netcdf.read(built.path / "results/data/lumen_pulse.nc")
+    pictures = set()
+    for i, j in ((0, 5), (3, 5), (3, pulse.sizes["tau"] - 1)):
+        control(browser, "explore-tube", "ell", i)
+        control(browser, "explore-tube", "tau", j)
+        here = {"ell": i, "tau": j}
+        for name, value in {
+            "Z_C": pulse.Z_C[j],
+            "Phi1_front": pulse.Phi1_front[here],
+            "A": fit.A_tau[here],
+        }.items():
+            assert number(shown(browser, "explore-tube", name)) == pytest.approx(
+                float(value), rel=6e-4
+            ), name
+        tau = float(pulse.tau[j])
+        if np.any(np.isclose(lumen.tau, tau)):
+            same = lumen.sel(tau=tau, method="nearest").isel(ell=i)
+            for form in ("printed", "continuous"):
+                told = number(shown(browser, "explore-tube", f"V_{form}_front"))
+                assert told == pytest.approx(float(same[f"V_front_{form}"]), rel=6e-4)
+        pictures.add(browser.execute_script(PICTURE, '#explore-tube [data-canvas="section"]'))
+    assert len(pictures) == 3
+
+
+def test_the_bead_shows_the_numbers_of_its_dataset(show, built):
+    browser = show()
+    pictures = set()
+    for case, step in (("swelling", 40), ("swelling", 150), ("drying", 150)):
+        control(browser, "explore-bead", "case", case)
+        control(browser, "explore-bead", "t", step)
+        for model in ("lens", "nonlinear"):
+            bead = netcdf.read(built.path / f"results/data/bead_{case}_{model}.nc")
+            for name, values in {
+                "radius": bead.radius,
+                "surface": bead.surface_polymer_fraction,
+                "centre": bead.polymer_fraction[:, 0],
+            }.items():
+                assert number(shown(browser, "explore-bead", f"{model}-{name}")) == pytest.approx(
+                    float(values[step]), rel=6e-4
+                )
+        for canvas in ("disc", "profile", "course"):
+            selector = f'#explore-bead [data-canvas="{canvas}"]'
+            pictures.add(browser.execute_script(PICTURE, selector))
+    assert len(pictures) == 9
+
+
+def test_a_bead_whose_phases_separate_says_so(show):
+    browser = show()
+    control(browser, "explore-bead", "case", "separating")
+    assert shown(browser, "explore-bead", "nonlinear-radius") == "stopped"
+    assert (
+        "phase separation" in browser.find_element("css selector", "#explore-bead [data-note]").text
+    )
+
+
+def test_the_gel_is_in_equilibrium(show, hht):
+    browser = show()
+    control(browser, "explore-gel", "gel", "HHT")
+    pictures = set()
+    for step in (20, 100, 200):
+        control(browser, "explore-gel", "T", step)
+        phi = number(shown(browser, "explore-gel", "phi_0"))
+        roots = hht.equilibrium_polymer_fractions(300.0 + 0.05 * step)
+        fractions = np.atleast_1d(getattr(roots, "polymer_fraction", roots))
+        assert np.min(np.abs(fractions / phi - 1)) < 1e-3
+        for canvas in ("pressure", "plane"):
+            selector = f'#explore-gel [data-canvas="{canvas}"]'
+            pictures.add(browser.execute_script(PICTURE, selector))
+    assert len(pictures) == 6
+
+
+@pytest.mark.parametrize("explorer", ["explore-tube", "explore-bead", "explore-gel"])
+def test_it_plays_and_pauses_by_keyboard(show, explorer):
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    browser = show()
+    button = browser.find_element("css selector", f"#{explorer} [data-play]")
+    before = browser.execute_script(PICTURE, f"#{explorer} canvas")
+    button.send_keys(Keys.SPACE)
+    assert button.text == "Pause"
+    WebDriverWait(browser, 20).until(
+        lambda _: browser.execute_script(PICTURE, f"#{explorer} canvas") != before
+    )
+    button.send_keys(Keys.ENTER)
+    assert button.text == "Play"
+    slider = browser.find_element("css selector", f'#{explorer} input[type="range"]')
+    told = slider.get_attribute("aria-valuetext")
+    slider.send_keys(Keys.ARROW_LEFT)
+    assert slider.get_attribute("aria-valuetext") != told
+
+
+def test_claims_are_filtered_and_sorted_by_keyboard(show, built):
+    from selenium.webdriver.common.keys import Keys
+
+    claims = json.loads((built.path / "results/claims.json").read_text())
+    browser = show()
+    rows = "#claims-table tbody tr:not([hidden])"
+    browser.find_element("css selector", '.filters [data-status="deviates"]').send_keys(Keys.ENTER)
+    visible = browser.find_elements("css selector", rows)
+    assert len(visible) == sum(claim["status"] == "deviates" for claim in claims) > 0
+    assert {row.get_attribute("data-status") for row in visible} == {"deviates"}
+    browser.find_element("css selector", '.filters [data-status=""]').send_keys(Keys.SPACE)
+    heading = browser.find_element("css selector", 'thead [data-sort="5"]')
+    heading.send_keys(Keys.ENTER)
+    heading.send_keys(Keys.ENTER)
+    first = browser.find_element("css selector", rows).get_attribute("id")
+    largest = max(claims, key=lambda claim: claim["relative_difference"] or -1)
+    assert first == f"claim-{largest['id']}"
+    sorted_by = browser.find_element("css selector", "#claims-table th:nth-child(6)")
+    assert sorted_by.get_attribute("aria-sort") == "descending"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_serious(show, scheme):
+    axe_selenium = pytest.importorskip("axe_selenium_python")
+    axe = axe_selenium.Axe(show(1280, scheme))
+    axe.inject()
+    violations = axe.run()["violations"]
+    serious = [
+        (each["id"], [node["html"][:160] for node in each["nodes"]][:3])
+        for each in violations
+        if each["impact"] in ("serious", "critical")
+    ]
+    assert serious == []
+
+
+def test_it_prints(show):
+    import base64
+
+    printed = show().execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})
+    assert base64.b64decode(printed["data"]).startswith(b"%PDF")

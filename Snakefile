@@ -36,6 +36,7 @@ include: "workflow/rules/design_files.smk"
 include: "workflow/rules/design.smk"
 include: "workflow/rules/sweep_plans.smk"
 include: "workflow/rules/sweep.smk"
+include: "workflow/rules/performance.smk"
 
 
 rule all:

@@ -1,0 +1,196 @@
+"""How cost and memory grow, and what a rebuild spends before and around its physics."""
+
+import csv
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks import tools
+from benchmarks.measure import forked, growth
+from benchmarks.problems import Bead, Tubes
+from benchmarks.settings import PROJECT, paper
+
+IMPORTS = {
+    "interpreter": "pass",
+    "numpy": "import numpy",
+    "scipy.sparse": "import scipy.sparse",
+    "xarray": "import xarray",
+    "fipy": "import os; os.environ['FIPY_SOLVERS'] = 'scipy'; import fipy",
+    "matplotlib": "import matplotlib.figure",
+    "snakemake": "import snakemake.cli",
+}
+
+
+def _series(name: str, unit: str, counts, run) -> dict:
+    cost, done, failed = [], [], []
+    for n in counts:
+        try:
+            cost.append(forked(lambda n=n: run(n)))
+            done.append(n)
+        except ChildProcessError:  # its traceback is in the log
+            failed.append(n)
+    counts = done
+    seconds = [each[0] for each in cost]
+    fit, upper = growth(counts, seconds), growth(counts[-3:], seconds[-3:])
+    record = {
+        "what": name,
+        "unit": unit,
+        "n": [int(n) for n in counts],
+        "failed": failed,
+        "seconds": seconds,
+        "memory_mb": [each[1] for each in cost],
+        "exponent": fit.exponent,
+        "exponent_uncertainty": fit.exponent_uncertainty,
+        "upper_exponent": upper.exponent,
+        "upper_exponent_uncertainty": upper.exponent_uncertainty,
+        "crossover": fit.crossover if np.isfinite(fit.crossover) else None,
+    }
+    print(record, flush=True)
+    return record
+
+
+def series() -> list[dict]:
+    """Cells, tubes, cases and jobs, each with the others fixed."""
+    swelling = Bead.of(paper(), "swelling")
+
+    def tubes(count):
+        ell = np.linspace(0.1, 0.9, count) if count > 1 else [0.5]
+        return Tubes.of(paper(), "tubes", ell, [1e-3])
+
+    tools.our_bead(swelling, 12, 1e-2)  # imports are not part of it
+    tools.our_tubes(tubes(1), 8, 8, 1e-2)
+    return [
+        _series(
+            "cells of a bead",
+            "cells",
+            [40, 160, 640, 2560],
+            lambda n: tools.our_bead(swelling, n, 1e-3),
+        ),
+        _series(
+            "cells of five tubes",
+            "cells a tube",
+            [32, 128, 512, 2048],
+            lambda n: tools.our_tubes(tubes(5), n // 2, n // 2, 1e-3),
+        ),
+        _series(
+            "tubes of a family",
+            "tubes of 52 cells",
+            [1, 4, 16, 64, 256],
+            lambda n: tools.our_tubes(tubes(n), 32, 20, 1e-3),
+        ),
+        _series(
+            "bead cases, one after the other",
+            "cases",
+            [1, 2, 4, 8],
+            lambda n: [tools.our_bead(swelling, 24, 1e-3) for _ in range(n)],
+        ),
+        _series("Snakemake jobs that do nothing", "jobs", [1, 4, 16, 64], _jobs),
+    ]
+
+
+def _jobs(count: int) -> None:
+    """A workflow of ``count`` scripts that write an empty file."""
+    with tempfile.TemporaryDirectory() as folder:
+        here = Path(folder)
+        (here / "Snakefile").write_text(
+            f"rule all:\n    input: expand('{{i}}.txt', i=range({count}))\n\n"
+            "rule one:\n    output: '{i}.txt'\n    script: 'one.py'\n"
+        )
+        (here / "one.py").write_text("open(snakemake.output[0], 'w').close()\n")
+        command = [sys.executable, "-m", "snakemake", "--cores", "1", "--quiet", "all"]
+        subprocess.run(command, cwd=here, check=True, capture_output=True)
+
+
+def steps() -> dict:
+    """CPU seconds against the number of time steps, in one process: the tolerance varies."""
+    from benchmarks.measure import cpu
+    from gelpump.bead import lens
+
+    problem = Bead.of(paper(), "swelling")
+    counts, seconds = [], []
+    for tolerance in (1e-3, 1e-4, 1e-5, 1e-6):
+        spent, bead = cpu(
+            lambda tolerance=tolerance: lens.solve(
+                problem.gel,
+                problem.temperature,
+                problem.phi_initial,
+                problem.times,
+                40,
+                tolerance=tolerance,
+            ),
+            repeats=1,
+        )
+        counts.append(int(bead.attrs["steps"]))
+        seconds.append(spent)
+    fit, upper = growth(counts, seconds), growth(counts[-3:], seconds[-3:])
+    return {
+        "what": "time steps of a bead",
+        "unit": "steps",
+        "n": counts,
+        "seconds": seconds,
+        "memory_mb": [],
+        "exponent": fit.exponent,
+        "exponent_uncertainty": fit.exponent_uncertainty,
+        "upper_exponent": upper.exponent,
+        "upper_exponent_uncertainty": upper.exponent_uncertainty,
+        "crossover": fit.crossover if np.isfinite(fit.crossover) else None,
+    }
+
+
+def rebuild() -> dict:
+    """Start-up costs, Snakemake's own, and what the jobs of the last build took."""
+    start = {
+        name: min(forked(lambda code=code: _python("-c", code))[0] for _ in range(3))
+        for name, code in IMPORTS.items()
+    }
+
+    def dry():
+        _python("-m", "snakemake", "--cores", "1", "--dry-run", "--forceall", "--quiet", "all")
+
+    jobs = []
+    for file in sorted((PROJECT / "results/benchmarks").glob("*.tsv")):
+        with open(file, encoding="utf-8") as stream:
+            (row,) = list(csv.DictReader(stream, delimiter="\t"))[:1]
+        kind = "figures" if file.stem.startswith("fig") else file.stem.split("_")[0]
+        jobs.append(
+            {
+                "job": file.stem,
+                "kind": kind,
+                "seconds": _number(row["cpu_time"]),
+                "wall": _number(row["s"]),
+                "memory_mb": _number(row["max_rss"]),
+            }
+        )
+    return {"start": start, "plan": forked(dry)[0], "jobs": jobs}
+
+
+def _number(text: str) -> float:
+    try:
+        return max(float(text), 0.0)
+    except ValueError:
+        return 0.0
+
+
+def _python(*arguments: str) -> None:
+    subprocess.run([sys.executable, *arguments], cwd=PROJECT, check=True, capture_output=True)
+
+
+def machine() -> dict:
+    """What the numbers were measured on."""
+    model = platform.processor() or platform.machine()
+    info = Path("/proc/cpuinfo")
+    if info.exists():
+        names = [line for line in info.read_text().splitlines() if line.startswith("model name")]
+        model = names[0].partition(":")[2].strip() if names else model
+    return {
+        "cpu": model,
+        "cores": os.cpu_count(),
+        "python": platform.python_version(),
+        "system": platform.system(),
+        "load": round(os.getloadavg()[0], 1),
+    }

@@ -1,0 +1,264 @@
+"""docs/performance.md and its figure, from what was measured; no number is typed."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from benchmarks.cost import LEAST, MOST, OURS, SUNDIALS, TARGET, TEXTBOOK
+from gelpump.figures import style
+
+COLOURS = {
+    OURS: style.LENS,
+    SUNDIALS: style.NONLINEAR,
+    TEXTBOOK: style.PUBLISHED,
+    "CVODE": style.SEPARATING,
+    "LSODA": style.DRYING,
+    "BDF": "#CC79A7",
+    "Radau": "#56B4E9",
+    "py-pde": style.GREY,
+}
+MARKERS = dict(zip(COLOURS, "osD^v<>x", strict=True))
+
+
+def _number(value: float | None, extrapolated: bool = False) -> str:
+    if value is None:
+        return "not reached"
+    return f"{value:.2g}" + ("*" if extrapolated else "")
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A Markdown table."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
+
+
+def cost_table(problems: Sequence[Mapping[str, Any]]) -> str:
+    """CPU seconds at the target error, and the ratio to ours."""
+    rows = [
+        [
+            record["problem"] if i == 0 else "",
+            each["tool"],
+            _number(each["seconds"], each["extrapolated"]),
+            _number(each["ratio"], each["extrapolated"]),
+        ]
+        for record in problems
+        for i, each in enumerate(record["tools"])
+    ]
+    return table(["problem", "tool", "CPU s", "over gelpump's"], rows)
+
+
+def verdicts(problems: Sequence[Mapping[str, Any]]) -> str:
+    """What is asked for, and whether it holds."""
+    rows = []
+    for record in problems:
+        if "times_sundials" in record:
+            value, most = record["times_sundials"], record["most"]
+            rows.append(
+                [
+                    record["problem"],
+                    f"at most {most:g} times SUNDIALS",
+                    _number(value),
+                    "holds" if value <= most else "does not hold",
+                ]
+            )
+        if "beats_textbook" in record:
+            value = record["beats_textbook"]
+            rows.append(
+                [
+                    record["problem"],
+                    f"textbook FiPy costs {LEAST:g} times as much",
+                    _number(value),
+                    "holds" if value >= LEAST else "does not hold",
+                ]
+            )
+    return table(["problem", "condition", "measured", "verdict"], rows)
+
+
+def models(rows: Sequence[Mapping[str, Any]]) -> str:
+    """LENS against nonlinear, with a verdict."""
+    ratios = [row["ratio"] for row in rows]
+    if min(ratios) > 1.25:
+        verdict = "LENS is cheaper in both"
+    elif max(ratios) < 0.8:
+        verdict = "the nonlinear model is cheaper in both"
+    else:
+        verdict = "neither is clearly cheaper in both"
+    head = ["bead", "LENS, CPU s", "nonlinear, CPU s", "nonlinear over LENS"]
+    body = [
+        [r["case"], _number(r["lens"]), _number(r["nonlinear"]), _number(r["ratio"])] for r in rows
+    ]
+    return table(head, body) + f"\nVerdict: {verdict} (clearly: by a quarter).\n"
+
+
+def growth_table(series: Sequence[Mapping[str, Any]]) -> str:
+    """Exponents, whole and of the last three runs."""
+    rows = [
+        [
+            each["what"],
+            f"{each['n'][0]} to {each['n'][-1]} {each['unit']}",
+            f"{each['seconds'][0]:.2g} to {each['seconds'][-1]:.2g}",
+            f"{max(each['memory_mb']):.0f}" if each["memory_mb"] else "–",
+            f"{each['exponent']:.2f} ± {each['exponent_uncertainty']:.2f}",
+            f"{each['upper_exponent']:.2f} ± {each['upper_exponent_uncertainty']:.2f}",
+            "–" if each["crossover"] is None else f"{each['crossover']:.2g}",
+        ]
+        for each in series
+    ]
+    head = [
+        "what grows",
+        "range",
+        "CPU s",
+        "peak MB",
+        "exponent",
+        "of the last three",
+        "fixed = growing at",
+    ]
+    return table(head, rows)
+
+
+def rebuild_tables(rebuild: Mapping[str, Any]) -> str:
+    """Start-up, plan, and the jobs of the last build by kind."""
+    start = rebuild["start"]
+    bare = start["interpreter"]
+    rows = [["interpreter", f"{bare:.2f}"]]
+    rows += [[f"import {k}", f"{v - bare:.2f}"] for k, v in start.items() if k != "interpreter"]
+    rows.append(["Snakemake: plan of the whole build", f"{rebuild['plan']:.2f}"])
+    kinds: dict[str, list] = {}
+    for job in rebuild["jobs"]:
+        kinds.setdefault(job["kind"], []).append(job)
+    body = [
+        [
+            kind,
+            len(jobs),
+            f"{sum(j['seconds'] for j in jobs):.1f}",
+            f"{sum(j['wall'] for j in jobs):.1f}",
+            f"{max(j['memory_mb'] for j in jobs):.0f}",
+        ]
+        for kind, jobs in sorted(kinds.items(), key=lambda kv: -sum(j["wall"] for j in kv[1]))
+    ]
+    return (
+        table(["before any physics", "CPU s"], rows)
+        + "\nThe jobs of the last build, as Snakemake recorded them:\n\n"
+        + table(["jobs", "number", "CPU s", "wall s", "peak MB"], body)
+    )
+
+
+def profile_table(profile: Sequence[Mapping[str, Any]]) -> str:
+    """Shares of FiPy in our own runs."""
+    rows = [
+        [
+            each["problem"],
+            each["sweeps"],
+            f"{each['seconds']:.2f}",
+            *(
+                f"{100 * each['shares'][k]:.0f} %"
+                for k in ("correction", "_prepareLinearSystem", "_solve_")
+            ),
+        ]
+        for each in profile
+    ]
+    head = [
+        "run of gelpump's",
+        "sweeps",
+        "s, profiled",
+        "in FiPy",
+        "of it assembly",
+        "of it linear solve",
+    ]
+    return table(head, rows)
+
+
+def page(measured: Mapping[str, Any], levers: str = "") -> str:
+    """The page as Markdown."""
+    machine = measured["machine"]
+    cost = measured["cost"]
+    return f"""# Performance
+
+Made by `snakemake --cores 1 performance`, which measures all of it again. Measured on
+{machine["cpu"]}, {machine["cores"]} cores, Python {machine["python"]}, {machine["system"]}, at a
+load of {machine["load"]} when it began. CPU seconds are user and system time of one process,
+imports excluded unless stated; the least of three runs, or of one if that took two seconds.
+
+## Cost against error
+
+CPU seconds at a relative error of {TARGET:g}, interpolated between runs that no other run of the
+tool beats in both; * marks what is extrapolated beyond the smallest error reached (the textbook
+family: as many times its cheapest tube). SUNDIALS are the package's second solvers: CVODE for the
+bead, with a dense Jacobian; IDA for the tubes, on nodes that follow the front. CVODE, LSODA, BDF
+and Radau are the method of lines with a tridiagonal Jacobian, for tubes on a uniform mesh. py-pde
+solves Barenblatt's drop only: its meshes are uniform, and it has no place for a surface that moves
+with the solution.
+
+![Error against CPU seconds for each tool and problem](performance.png)
+
+{cost_table(cost["problems"])}
+What is asked for, bead at most {MOST["bead"]:g} and tubes at most {MOST["tube"]:g} times SUNDIALS:
+
+{verdicts(cost["problems"])}
+## The floor
+
+What FiPy takes of our own runs, which no numerics around it can remove. The profiler itself slows
+Python down, so that shares mean more than seconds.
+
+{profile_table(cost["profile"])}
+## LENS against nonlinear
+
+The same integrator (CVODE), the same unknowns, mesh, band and tolerances, each model against its
+own converged solution, at an error of {TARGET:g}:
+
+{models(cost["models"])}
+## Growth
+
+Cost ~ n^exponent, fitted to all runs and to the last three; and the n at which what grows costs as
+much as what is fixed. A sweep of FiPy has a large fixed part, so that cost grows less than in
+proportion to cells and tubes as long as that part leads.
+
+{growth_table(measured["growth"])}
+## A rebuild
+
+{rebuild_tables(measured["rebuild"])}{levers}"""
+
+
+def draw(problems: Sequence[Mapping[str, Any]]):
+    """Work-precision diagrams, one panel a problem."""
+    fig = style.figure(height=5.6)
+    axes = fig.subplots(3, 2, sharey=True).ravel()
+    handles = {}
+    for letter, axis, record in zip("abcdef", axes, problems, strict=True):
+        for each in record["tools"]:
+            done = [run for run in each["runs"] if "error" in run]
+            if not done:
+                continue
+            (handles[each["tool"]],) = axis.loglog(
+                [run["seconds"] for run in done],
+                [run["error"] for run in done],
+                color=COLOURS[each["tool"]],
+                marker=MARKERS[each["tool"]],
+                markerfacecolor="white",
+                linewidth=1.8 if each["tool"] == OURS else 0.9,
+            )
+        axis.axhline(TARGET, color=style.GREY, linewidth=0.6, linestyle="--")
+        style.panel_label(axis, letter)
+        axis.set_title(record["problem"], fontsize=8, pad=4)
+    for axis in axes[4:]:
+        axis.set_xlabel("CPU seconds")
+    for axis in axes[::2]:
+        axis.set_ylabel("relative error")
+    fig.legend(handles.values(), handles, loc="outside lower center", ncols=4)
+    return fig
+
+
+def write(measured: Mapping[str, Any], folder: Path) -> None:
+    """performance.md and performance.png."""
+    from gelpump.text import write_text
+
+    levers = folder / "levers.md"
+    seen = "\nWhat made it faster, lever by lever: [levers.md](levers.md).\n"
+    write_text(page(measured, seen if levers.exists() else ""), folder / "performance.md")
+    with style.styled():
+        fig = draw(measured["cost"]["problems"])
+        fig.set_dpi(150)
+        import matplotlib
+
+        with matplotlib.rc_context({"savefig.dpi": 150}):
+            style.save(fig, [folder / "performance.png"])

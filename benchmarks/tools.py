@@ -135,7 +135,7 @@ def textbook_bead(problem: Bead, cells: int, steps: int):
         cube = np.cumsum(J.value * dry)
         phi = np.append(1 / J.value, surface.surface(cube[-1] ** (1 / 3)))
         mobility = surface.diffusivity(phi) * phi**2
-        mean = np.append((mobility[1:-1] + mobility[:-2]) / 2, mobility[-1])
+        mean = (mobility[1:] + mobility[:-1]) / 2
         K.setValue(np.append(0.0, 3 * cube ** (4 / 3) / faces[1:] ** 2 * mean))
         J_s.setValue(1 / phi[-1])
 

@@ -38,10 +38,8 @@ def test_all_tools_swell_the_same_bead(swelling):
     assert swelling.error(tools.our_bead(swelling, 24, 1e-3)) < 5e-3
     assert swelling.error(tools.second_bead(swelling, 40, 1e-4)) < 5e-3
     assert swelling.error(lines.LensLines(swelling, 16).solve("CVODE", 1e-4)) < 5e-3
-    # uniform cells and arithmetic means of D, which varies a thousandfold: slow, but it converges
-    errors = [swelling.error(tools.textbook_bead(swelling, n, n)) for n in (20, 80)]
-    assert errors[1] < 0.2
-    assert errors[1] < 0.8 * errors[0]
+    # uniform cells and arithmetic means of D, which varies a thousandfold: far away, but no more
+    assert swelling.error(tools.textbook_bead(swelling, 20, 20)) < 0.2
 
 
 def test_the_nonlinear_bead_swells_nearly_as_the_lens_bead(swelling):
@@ -97,3 +95,20 @@ def test_verdicts_are_computed():
     record = {"problem": "bead", "times_sundials": 51.0, "most": 50.0}
     assert "does not hold" in page.verdicts([record])
     assert "does not hold" not in page.verdicts([record | {"times_sundials": 49.0}])
+
+
+def test_what_stays_far_from_the_target_is_a_lower_bound():
+    runs = {
+        cost.OURS: [{"error": 5e-4, "seconds": 1.0}],
+        cost.SUNDIALS: [{"error": 5e-4, "seconds": 0.5}],
+        cost.TEXTBOOK: [{"error": 0.1, "seconds": 4.0}],
+    }
+    tools_ = [
+        {"tool": name, "runs": done, "seconds": done[0]["seconds"], "extrapolated": False}
+        for name, done in runs.items()
+    ]
+    record = cost.concluded({"problem": "p", "kind": "tube", "tools": tools_})
+    assert record["times_sundials"] == pytest.approx(2.0)
+    assert record["bound"]
+    assert record["beats_textbook"] == pytest.approx(4.0)
+    assert "undecided" in page.verdicts([record])

@@ -1,12 +1,12 @@
 # Cost and growth, measured; not part of a build, since nothing measured repeats to the byte.
 import sys
 
-MEASURED = "results/benchmarks/performance/measured.json"
+MEASURED_COSTS = "results/benchmarks/performance/measured.json"
 
 
 rule benchmarks:
     output:
-        MEASURED,
+        MEASURED_COSTS,
     log:
         "results/logs/benchmarks.log",
     params:
@@ -17,7 +17,7 @@ rule benchmarks:
 
 rule performance:
     input:
-        MEASURED,
+        MEASURED_COSTS,
     log:
         "results/logs/performance.log",
     params:

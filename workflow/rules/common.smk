@@ -116,3 +116,14 @@ def tube_gel(wildcards):
 def measured_points(wildcards):
     """The file that a measured gel was fitted to."""
     return MEASURED.get(wildcards.gel, [])
+
+
+def told(name):
+    """What page and article tell of the rule of a figure or a table."""
+    made_by = getattr(rules, name)
+    return {
+        "caption": f"workflow/report/{name}.rst",
+        "params": dict(made_by.params.items()),
+        "data": sorted(str(file) for file in made_by.input if str(file).endswith(".nc")),
+        "files": {suffix: str(file) for suffix, file in made_by.output.items()},
+    }

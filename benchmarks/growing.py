@@ -150,7 +150,7 @@ def rebuild() -> dict:
     }
 
     def dry():
-        _python("-m", "snakemake", "--cores", "1", "--dry-run", "--forceall", "--quiet", "all")
+        _python("-m", "snakemake", "--cores", "1", "--dry-run", "--forceall", "all")
 
     jobs = []
     for file in sorted((PROJECT / "results/benchmarks").glob("*.tsv")):
@@ -166,7 +166,11 @@ def rebuild() -> dict:
                 "memory_mb": _number(row["max_rss"]),
             }
         )
-    return {"start": start, "plan": forked(dry)[0], "jobs": jobs}
+    try:
+        plan = forked(dry)[0]
+    except ChildProcessError:  # the workflow does not parse: its message is in the log
+        plan = None
+    return {"start": start, "plan": plan, "jobs": jobs}
 
 
 def _number(text: str) -> float:

@@ -121,7 +121,7 @@ def rebuild_tables(rebuild: Mapping[str, Any]) -> str:
     bare = start["interpreter"]
     rows = [["interpreter", f"{bare:.2f}"]]
     rows += [[f"import {k}", f"{v - bare:.2f}"] for k, v in start.items() if k != "interpreter"]
-    rows.append(["Snakemake: plan of the whole build", f"{rebuild['plan']:.2f}"])
+    rows.append(["Snakemake: plan of the whole build", _number(rebuild["plan"])])
     kinds: dict[str, list] = {}
     for job in rebuild["jobs"]:
         kinds.setdefault(job["kind"], []).append(job)

@@ -341,7 +341,7 @@ MUTANTS = (
         "src/gelpump/config.py",
         "elif name.value in seen:",
         "elif name.value in ():",
-        "tests/hostile/test_config.py -k seem",
+        "tests/hostile/test_hostile_config.py -m evidence -k seem",
     ),
 )
 

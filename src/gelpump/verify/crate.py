@@ -1,4 +1,4 @@
-"""An RO-Crate 1.2 of the results, made from the manifest alone."""
+"""An RO-Crate 1.3 of the results, made from the manifest alone."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
@@ -42,7 +42,7 @@ def crate(manifest: Mapping[str, Any], sha256: str, size: int) -> dict[str, Any]
         {
             "@id": "ro-crate-metadata.json",
             "@type": "CreativeWork",
-            "conformsTo": _link("https://w3id.org/ro/crate/1.2"),
+            "conformsTo": _link("https://w3id.org/ro/crate/1.3"),
             "about": _link("./"),
         },
         root,
@@ -62,7 +62,7 @@ def crate(manifest: Mapping[str, Any], sha256: str, size: int) -> dict[str, Any]
         },
     ]
     return {
-        "@context": "https://w3id.org/ro/crate/1.2/context",
+        "@context": "https://w3id.org/ro/crate/1.3/context",
         "@graph": [*about, *files, *actions],
     }
 

@@ -58,7 +58,7 @@ def refusals(crate: Path, cache: Path) -> list[str]:
     result = services.validate(
         services.ValidationSettings(
             rocrate_uri=str(crate),
-            profile_identifier=[PROFILE],
+            profile_identifier=PROFILE,
             requirement_severity=models.Severity.REQUIRED,
             offline=True,
             cache_path=cache,

@@ -38,6 +38,8 @@ def job(snakemake):
             _require_declared(snakemake.input.src)
             if snakemake.output:
                 _leave_record(provenance.record(snakemake.output), Path(snakemake.log[0]))
+        except SystemExit:  # a refusal in words, which Python prints
+            raise
         except BaseException:
             traceback.print_exc()
             raise

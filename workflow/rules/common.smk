@@ -127,3 +127,11 @@ def told(name):
         "data": sorted(str(file) for file in made_by.input if str(file).endswith(".nc")),
         "files": {suffix: str(file) for suffix, file in made_by.output.items()},
     }
+
+
+def radii_read_off(case):
+    """Radii that were read off the paper's figure of this case, by model."""
+    verb = {"swelling": "swell", "drying": "dry"}.get(case)
+    claimed = {model: f"{verb}-radius-{model}" for model in ("lens", "nonlinear")}
+    known = config["published"]
+    return {model: known[claim]["value"] for model, claim in claimed.items() if claim in known}

@@ -6,14 +6,6 @@ TOLD_TABLES = {Path(file).stem: told(Path(file).stem) for file in TABLES if file
 PAGE_TEMPLATES = sorted(map(str, Path("src/gelpump/report/templates").glob("*.*")))
 
 
-def radii_read_off(case):
-    """Radii that were read off the paper's figure of this case, by model."""
-    verb = {"swelling": "swell", "drying": "dry"}.get(case)
-    claimed = {model: f"{verb}-radius-{model}" for model in ("lens", "nonlinear")}
-    known = config["published"]
-    return {model: known[claim]["value"] for model, claim in claimed.items() if claim in known}
-
-
 rule report_page:
     input:
         verdicts=["results/claims.json", "results/ledger.json", *CHECKS],

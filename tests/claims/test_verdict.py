@@ -62,15 +62,31 @@ def test_a_statement_holds_only_beyond_doubt():
     ("value", "uncertainty", "text"),
     [
         (1.495846, 9e-5, "1.49585"),
-        (0.14525, 2e-4, "0.14525"),
+        (1.495846, 9.6e-5, "1.4958"),
+        (0.14527, 2e-4, "0.1453"),
         (304.73768, 1e-11, "304.738"),
-        (1234.5, 20.0, "1234"),
+        (1234.5, 20.0, "1230"),
         (1e-12, 1e-6, "1e-12"),
         (0.25, None, "0.25"),
     ],
 )
 def test_numbers_keep_the_digits_that_mean_something(value, uncertainty, text):
     assert table.digits(value, uncertainty) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "uncertainty", "text"),
+    [
+        (0.6425163, 9e-16, "0.642516"),
+        (1.495138, 8e-6, "1.49514 ± 8e-06"),
+        (1.495846, 1e-4, "1.4958 ± 0.0001"),
+        (-0.00039, 1e-4, "-0.0004 ± 0.0001"),
+        (1e-12, 1e-6, "1e-12 ± 1e-06"),
+        ([1.0, 2.0], [0.1, 1e-9], "1.0 ± 0.1, 2.00000"),
+    ],
+)
+def test_an_uncertainty_is_shown_where_it_touches_a_digit(value, uncertainty, text):
+    assert table.number(value, uncertainty) == text
 
 
 def test_the_table_counts_and_lists():

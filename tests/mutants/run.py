@@ -325,7 +325,7 @@ MUTANTS = (
     Mutant(
         "NaN written to a dataset",
         "src/gelpump/netcdf.py",
-        "    _require_finite(dataset, title)\n",
+        "    _require_finite(dataset, title, flag)\n",
         "",
         "tests/test_netcdf.py",
     ),

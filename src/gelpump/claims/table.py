@@ -8,20 +8,29 @@ from typing import Any
 STATUSES = ("reproduced", "deviates", "inconsistent-in-paper", "qualitative")
 
 
+SIGNIFICANT = 6  # digits that are shown at most
+
+
 def digits(value: float, uncertainty: float | None) -> str:
-    """``value`` rounded to the second digit of ``uncertainty``, six significant ones at most."""
+    """``value`` rounded to the first digit of ``uncertainty``, SIGNIFICANT ones at most."""
     if not uncertainty:
-        return f"{value:.6g}"
+        return f"{value:.{SIGNIFICANT}g}"
     if abs(value) <= abs(uncertainty):
         return f"{value:.1g}"
-    decimals = 1 - floor(log10(abs(uncertainty)))
-    if value:
-        decimals = min(decimals, 5 - floor(log10(abs(value))))
+    decimals = min(_decimals(uncertainty), SIGNIFICANT - 1 - floor(log10(abs(value))))
     return f"{round(value, decimals):.{max(decimals, 0)}f}"
 
 
+def _decimals(uncertainty: float) -> int:
+    """Of the first digit of ``uncertainty``, as that is printed: 0.00096 is 0.001."""
+    return -floor(log10(float(f"{abs(uncertainty):.0e}")))
+
+
 def number(value: Any, uncertainty: Any = None) -> str:
-    """A number, a list of numbers, a truth value or nothing, for a cell of the table."""
+    """A number, a list of numbers, a truth value or nothing, for a cell of the table.
+
+    An uncertainty below half a unit of the last digit shown is left out.
+    """
     if value is None:
         return "–"
     if isinstance(value, bool):
@@ -30,7 +39,9 @@ def number(value: Any, uncertainty: Any = None) -> str:
         many = uncertainty if isinstance(uncertainty, list) else [uncertainty] * len(value)
         return ", ".join(number(v, u) for v, u in zip(value, many, strict=True))
     text = digits(value, uncertainty)
-    return f"{text} ± {uncertainty:.1g}" if uncertainty else text
+    shown = len(text.partition(".")[2])
+    hidden = not uncertainty or (uncertainty < 0.5 * 10.0**-shown and abs(value) > uncertainty)
+    return text if hidden else f"{text} ± {uncertainty:.1g}"
 
 
 def counts(claims: Sequence[Mapping[str, Any]]) -> dict[str, int]:

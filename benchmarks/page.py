@@ -75,6 +75,8 @@ def verdicts(problems: Sequence[Mapping[str, Any]]) -> str:
 
 def models(rows: Sequence[Mapping[str, Any]]) -> str:
     """LENS against nonlinear, with a verdict."""
+    if not rows:
+        return "Not measured.\n"
     ratios = [row["ratio"] for row in rows]
     if min(ratios) > 1.25:
         verdict = "LENS is cheaper in both"
@@ -224,7 +226,7 @@ def draw(problems: Sequence[Mapping[str, Any]]):
     fig = style.figure(height=5.6)
     axes = fig.subplots(3, 2, sharey=True).ravel()
     handles = {}
-    for letter, axis, record in zip("abcdef", axes, problems, strict=True):
+    for letter, axis, record in zip("abcdef", axes, problems, strict=False):
         for each in record["tools"]:
             done = [run for run in each["runs"] if "error" in run]
             if not done:

@@ -25,6 +25,8 @@ from clone import Clone
 HERE = Path(__file__).resolve().parent
 TOOLS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol")
 LIMIT = 170  # seconds
+# the executor takes SLURM_CONF out of the environment of a job before it calls srun
+SYSTEM = Path("/etc/slurm/slurm.conf")
 CONFIG = """
 ClusterName=gelpump
 SlurmctldHost={host}(127.0.0.1)
@@ -32,7 +34,7 @@ SlurmctldPort={port}
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
-AuthInfo=socket={folder}/munge.socket
+AuthInfo=socket={folder}/munge.socket,cred_expire=10
 CredType=cred/munge
 StateSaveLocation={folder}/state
 SlurmdSpoolDir={folder}/%n
@@ -66,6 +68,8 @@ def missing() -> str:
         return f"no {', '.join(absent)} (apt-get install slurm-wlm munge)"
     if importlib.util.find_spec("snakemake_executor_plugin_slurm") is None:
         return "no executor (pip install -r workflow/profiles/slurm/requirements.txt)"
+    if SYSTEM.exists() or SYSTEM.is_symlink():
+        return f"{SYSTEM} exists: a cluster is configured on this machine"
     return ""
 
 
@@ -91,6 +95,8 @@ class Cluster:
         self.config = folder / "slurm.conf"
         self.config.write_text(CONFIG.format(host=host, folder=folder, **ports))
         self.environment = os.environ | {"SLURM_CONF": str(self.config)}
+        SYSTEM.parent.mkdir(exist_ok=True)
+        SYSTEM.symlink_to(self.config)
 
     def start(self):
         key = self.folder / "munge.key"
@@ -131,12 +137,12 @@ class Cluster:
                     command = (entry / "cmdline").read_bytes().decode()
                 except OSError:
                     continue
-                ours = f"SLURM_CONF={self.config}".encode() in variables
+                ours = any(f"SLURM_JOB_ID={job}".encode() in variables for job in jobs)
                 on_node = f"SLURMD_NODENAME={node}".encode() in variables
                 step = command.startswith("slurmstepd: [") and any(
                     f"[{job}." in command for job in jobs
                 )
-                if ours and (on_node or step):
+                if (ours and on_node) or step:
                     doomed.append(int(entry.name))
         for pid in doomed:
             with contextlib.suppress(ProcessLookupError):
@@ -144,6 +150,7 @@ class Cluster:
         return jobs
 
     def stop(self):
+        SYSTEM.unlink(missing_ok=True)
         for name in ("n1", "n2", "slurmctld", "munge"):
             with contextlib.suppress(OSError, ValueError):
                 os.kill(int((self.folder / f"{name}.pid").read_text()), signal.SIGTERM)
@@ -189,7 +196,9 @@ def main() -> int:
                 time.sleep(0.3)
             log.seek(0)
             text = log.read()
-            assert run.poll() == 0, text[-6000:] + cluster.run("squeue")
+            failures = sorted((remote.path / ".snakemake/slurm_logs").rglob("*.log"))
+            told = "".join(each.read_text()[-1500:] for each in failures[:2])
+            assert run.poll() == 0, text[-3000:] + cluster.run("squeue") + told
             assert killed, "the sweep ended before a node could be killed"
             for path in [target, *(f"results/sweeps/slurm/chunks/{i:06d}.nc" for i in range(6))]:
                 same = (local.path / path).read_bytes() == (remote.path / path).read_bytes()

@@ -157,7 +157,6 @@ def test_an_error_that_is_not_finite_is_never_accepted(wrong):
 
 
 def test_steps_are_limited(monkeypatch):
-    monkeypatch.setattr(bdf, "MAX_TRIALS", 50)
     with pytest.raises(RuntimeError, match=r"50 steps ended at t = .* before t = 1000"):
         list(
             bdf.integrate(
@@ -168,6 +167,7 @@ def test_steps_are_limited(monkeypatch):
                 tolerance=1e-12,
                 first_step=1e-6,
                 error_norm=lambda y, dy: float(np.abs(dy).max()),
+                trials=50,
             )
         )
     monkeypatch.setattr(nonlinear, "MAX_EVALUATIONS", 10)

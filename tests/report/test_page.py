@@ -58,6 +58,8 @@ def test_it_is_the_same_each_time(page, text, built):
     result = built.snakemake("report_page", "--force")
     assert result.returncode == 0, result.stdout + result.stderr
     assert page.read_text(encoding="utf-8") == text
+    # other tests share the build: its manifest must not be older than the page
+    assert built.snakemake().returncode == 0
 
 
 def test_text_is_escaped():

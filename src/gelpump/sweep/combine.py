@@ -1,7 +1,7 @@
 """All chunks as one dataset, of which no more than one chunk is ever in memory.
 
 The netCDF library writes slices of a dataset on disk, and xarray opens the result lazily: neither
-dask nor zarr is needed for that (docs/sweeps.md has the measurement).
+dask nor zarr is needed for that.
 """
 
 import json

@@ -170,7 +170,9 @@ SECOND_TUBES = [(24, 1e-3), (32, 1e-4), (48, 1e-4), (64, 1e-4), (100, 1e-5)]
 def family(single: Sequence[dict]) -> dict:
     """All tubes of figure 9; the textbook way as many times as its cheapest tube."""
     ell, _ = family_ell(paper()["tube_pulse"])
-    problem = with_tube_reference(Tubes.of(paper(), f"family of {len(ell)} tubes", ell, TAU), 200)
+    problem = with_tube_reference(
+        Tubes.of(paper(), f"family of {len(ell)} tubes", ell, TAU), 200, 1e-7
+    )
     found = [
         ladder(problem, OURS, tools.our_tubes, OUR_TUBES),
         ladder(problem, SUNDIALS, tools.second_tubes, SECOND_TUBES),

@@ -82,6 +82,7 @@ def test_numbers_keep_the_digits_that_mean_something(value, uncertainty, text):
         (1.495846, 1e-4, "1.4958 ± 0.0001"),
         (-0.00039, 1e-4, "-0.0004 ± 0.0001"),
         (1e-12, 1e-6, "1e-12 ± 1e-06"),
+        (532.1, 23.6, "530 ± 20"),
         ([1.0, 2.0], [0.1, 1e-9], "1.0 ± 0.1, 2.00000"),
     ],
 )
@@ -98,3 +99,14 @@ def test_the_table_counts_and_lists():
     assert "2 reproduced, 0 deviates" in page
     assert "true: margin 0.3" in page
     assert page.count("\n| id |") == 2
+
+
+def test_small_numbers_are_shown_with_a_power_of_ten():
+    assert table.number(8.064912345e-06, 1e-19) == "8.06491e-06"
+    assert table.number(8.064912345e-06, 2e-9) == "8.065e-06 ± 2e-09"
+
+
+def test_there_is_no_relative_difference_from_zero():
+    entry = judged(finding(0.003, 1e-3), {"value": 0.0, "resolution": 0.05})
+    assert entry["relative_difference"] is None
+    assert entry["status"] == "reproduced"

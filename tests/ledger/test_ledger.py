@@ -101,7 +101,7 @@ def test_drawn_lens_curves_are_compared_with_the_solution(shift, disagrees):
 
 
 def test_the_coupling_of_lumen_and_gel_falls_with_the_radius():
-    tube = {"M": 1.0}
+    tube = {"M": 1.0, "eps": 0.1}
     near = tubes.lumen_coupling({"permeability": 1e-15, "smallest_radius": 1e-7}, tube)
     far = tubes.lumen_coupling({"permeability": 1e-15, "smallest_radius": 1e-5}, tube)
     assert near.disagrees

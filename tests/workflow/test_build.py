@@ -35,6 +35,21 @@ def test_everything_is_built_once(built):
         assert "Traceback" not in log.read_text(), log
 
 
+def test_every_figure_has_key_numbers_with_their_uncertainty(built):
+    numbers = json.loads((built.path / "results/tables/figure_numbers.json").read_text())
+    figures = {file.stem for file in (built.path / "results/figures").glob("fig*.png")}
+    assert {row["figure"] for row in numbers} == figures
+    assert len(figures) == 14
+    for row in numbers:
+        value, uncertainty = np.atleast_1d(row["value"]), np.atleast_1d(row["uncertainty"])
+        assert value.shape == uncertainty.shape
+        assert (uncertainty > 0).all(), row
+        if "distance" not in row["quantity"]:  # which the quick paper's meshes cannot tell from 0
+            assert (uncertainty < 0.1 * np.abs(value)).all(), row
+        file = row["evidence"].partition(":")[0]
+        assert "{" in file or (built.path / "results" / file).exists()
+
+
 def test_a_rebuild_gives_the_same_bytes(built):
     results = built.path / "results"
     patterns = ("*.nc", "*.png", "*.pdf", "*.svg")

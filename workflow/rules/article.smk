@@ -23,6 +23,7 @@ rule article:
         told=[
             "results/claims.json",
             "results/ledger.json",
+            "results/tables/figure_numbers.json",
             "results/verification.json",
             "results/cross_check.json",
             "CITATION.cff",

@@ -25,13 +25,24 @@ EVIDENCE = (
         ],
     )
 )
+DRAWN_BEADS = {
+    case
+    for block in config["figures"].values()
+    for case in [block.get("case", CLAIM_BEADS[0]), *block.get("cases", [])]
+}
+DRAWN_BEADS_DATA = expand(
+    [f"{DATA}/{{folder}}bead_{{case}}_{{model}}.nc"],
+    folder=["", "refinement/"],
+    case=sorted(DRAWN_BEADS - set(CLAIM_BEADS)),
+    model=["lens", "nonlinear"],
+)
 CLAIMED_GELS = {name: config["gels"][name] for name in CLAIM_GELS if name in config["gels"]}
 CLAIMED_BEADS = {name: config["beads"][name] for name in CLAIM_BEADS if name in config["beads"]}
 
 
 rule claims:
     input:
-        data=EVIDENCE,
+        data=list(dict.fromkeys(EVIDENCE + MATERIALS + DRAWN_BEADS_DATA)),
         src=modules(
             "netcdf",
             "text",
@@ -44,9 +55,21 @@ rule claims:
             "claims/materials",
             "claims/beads",
             "claims/tubes",
+            "claims/figure_numbers",
+            "tube/__init__",
+            "tube/flow",
+            "tube/front",
+            "tube/lumen",
         ),
     output:
         json="results/claims.json",
+        numbers="results/tables/figure_numbers.json",
+        numbers_md=report(
+            "results/tables/figure_numbers.md",
+            caption="../report/figure_numbers.rst",
+            category="Verdicts",
+            labels={"shows": "key numbers of the figures"},
+        ),
         md=report(
             "results/tables/claims.md",
             caption="../report/claims.rst",
@@ -62,6 +85,8 @@ rule claims:
         gels=CLAIMED_GELS,
         cases=CLAIMED_BEADS,
         scales=config["scales"],
+        drawn_gels={name: config["gels"][name] for name in ENERGY_GELS},
+        shown={key: config[key] for key in ("figures", "beads", "tube_flow", "lumen_pulse")},
     script:
         "../scripts/claims.py"
 
@@ -72,6 +97,9 @@ rule ledger:
         src=modules(
             "netcdf",
             "text",
+            "uncertainty",
+            "tube/__init__",
+            "tube/flow",
             *GEL,
             "ledger/__init__",
             "ledger/entry",

@@ -8,7 +8,12 @@ PAGE_TEMPLATES = sorted(map(str, Path("src/gelpump/report/templates").glob("*.*"
 
 rule report_page:
     input:
-        verdicts=["results/claims.json", "results/ledger.json", *CHECKS],
+        verdicts=[
+            "results/claims.json",
+            "results/ledger.json",
+            "results/tables/figure_numbers.json",
+            *CHECKS,
+        ],
         data=[
             *(file for file in [*MATERIALS, *BEADS, *TUBES, *SENSITIVITIES] if file not in CHECKS)
         ],
@@ -22,6 +27,7 @@ rule report_page:
         src=modules(
             "netcdf",
             "text",
+            "uncertainty",
             "claims/__init__",
             "claims/table",
             "figures/__init__",

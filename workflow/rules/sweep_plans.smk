@@ -28,7 +28,11 @@ def sweep_chunks(wildcards):
 
 def sweep_spacing(wildcards):
     return {
-        key: (block.get("spaced") == "log" if isinstance(block, dict) else plan.by_ratios(block))
+        key: (
+            block.get("spaced") == "log"
+            if isinstance(block, dict)
+            else block[0] > 0 and block[-1] > 10 * block[0]
+        )
         for key, block in sweep_plan(wildcards.sweep)["parameters"].items()
     }
 

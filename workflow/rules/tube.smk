@@ -14,7 +14,7 @@ TUBES = expand(
     ],
 )
 TUBE = ["netcdf", "tube/__init__", "tube/scaling"]
-UNIFORM_TUBE = [*GEL, *TUBE, "tube/deswelling", "tube/uniform"]
+UNIFORM_TUBE = [*GEL, *TUBE, "uncertainty", "tube/deswelling", "tube/uniform"]
 WALL = [*TUBE, "tube/flow", "tube/front"]
 PULSE = [
     *GEL,
@@ -155,7 +155,7 @@ rule lumen_pulse:
     input:
         pulse=f"{DATA}/tube_pulse.nc",
         fit=f"{DATA}/front_fit.nc",
-        src=modules(*GEL, *WALL, "tube/lumen", "tube/lumen_pulse"),
+        src=modules(*GEL, *WALL, "uncertainty", "tube/lumen", "tube/lumen_pulse"),
     output:
         f"{DATA}/lumen_pulse.nc",
     log:

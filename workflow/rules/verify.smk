@@ -8,6 +8,8 @@ PRODUCTS = [
     *TABLES,
     "results/claims.json",
     "results/tables/claims.md",
+    "results/tables/figure_numbers.json",
+    "results/tables/figure_numbers.md",
     "results/ledger.json",
     "results/tables/ledger.md",
     *CHECKS,

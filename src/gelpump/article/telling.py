@@ -4,6 +4,7 @@ A sentence that rests on a verdict is written from it.  KeyError if the ledger h
 one is about.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -168,6 +169,14 @@ def _figure(figure, ledger):
         "alt": figure.alt,
         "caption": [runs(paragraph) for paragraph in figure.caption],
         "judged": plain(" ".join(parts)),
+        "numbers": [
+            {
+                "quantity": runs(each.quantity),
+                "printed": runs(from_plain(re.sub(r"(?<!\w)-(?=\d)", "−", each.printed))),
+                "unit": runs(each.unit),
+            }
+            for each in figure.numbers
+        ],
     }
 
 

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from gelpump.claims.finding import Finding, holds
+from gelpump.uncertainty import convergence_index
 
 MODELS = {"nonlinear": "fully nonlinear", "lens": "LENS"}
 VERBS = {"swelling": ("swell", "figure 3"), "drying": ("dry", "figure 4")}
@@ -94,8 +95,6 @@ def steepest(t: np.ndarray, gradient: np.ndarray, after: float) -> float:
 
 
 def _drying_course(data) -> Iterator[Finding]:
-    from gelpump.uncertainty import convergence_index
-
     bead, refined = _bead(data, "drying", "lens")
     t = bead.t.values
     plateaus = np.array([plateau(t, radius) for radius in refined.radius.values])
@@ -104,7 +103,7 @@ def _drying_course(data) -> Iterator[Finding]:
         "section 2.1",
         "drying slows down between these times (LENS: |da/dt| below its mean over the course)",
         plateaus[0].tolist(),
-        _spread(convergence_index, plateaus).tolist(),
+        spread(plateaus).tolist(),
         "data/bead_drying_lens.nc: radius",
     )
     peaks = np.array([steepest(t, each, 1.0) for each in refined.steepest_gradient.values])
@@ -113,14 +112,15 @@ def _drying_course(data) -> Iterator[Finding]:
         "section 2.1",
         "polymer-fraction gradients, past the initial jump, are largest at this time (LENS)",
         float(peaks[0]),
-        float(_spread(convergence_index, peaks)),
+        float(spread(peaks)),
         "data/bead_drying_lens.nc: steepest_gradient",
     )
 
 
-def _spread(index, levels):
+def spread(levels: np.ndarray) -> np.ndarray:
     """Uncertainty of level 0, from the mesh (levels 1, 2) and the time tolerance (3, 4)."""
-    return index(levels[1], levels[0], levels[2]) + index(levels[3], levels[0], levels[4])
+    space = convergence_index(levels[1], levels[0], levels[2])
+    return space + convergence_index(levels[3], levels[0], levels[4])
 
 
 def _spinodal(data) -> Iterator[Finding]:

@@ -8,6 +8,7 @@ from gelpump.claims.finding import Finding, holds
 
 ROUNDING = 4 * np.finfo(float).eps  # relative, of a closed formula or a root found to the last bit
 COLD = 300.0  # K, the lowest temperature that the paper draws
+STRAIN = 1e-6  # of the shear that measures a modulus, to an error of this order
 NUDGE = 1e-6  # relative shift of a polymer fraction, to see how well an extremum is located
 
 
@@ -29,18 +30,18 @@ def _equilibria(data, gel) -> Iterator[Finding]:
             "section 2.1",
             f"the HHT gel in equilibrium at {T:.0f} K has this polymer fraction",
             phi,
-            _root_uncertainty(gel, phi, T),
+            root_uncertainty(gel, phi, T),
             f"data/bead_{case}_lens.nc: polymer_fraction at t = 0",
         )
 
 
-def _root_uncertainty(gel, phi: float, T: float) -> float:
+def root_uncertainty(gel, phi: float, T: float) -> float:
     """How far phi is from T_eq(phi) = T, to first order, and what rounding adds."""
     at, beside = gel.equilibrium_temperature(np.array([phi, phi * (1 + NUDGE)]))
     return float(abs((at - T) * phi * NUDGE / (beside - at))) + ROUNDING
 
 
-def _fold_uncertainty(gel, phi: float) -> float:
+def fold_uncertainty(gel, phi: float) -> float:
     """How far T_eq moves when the fold's polymer fraction is nudged: T is flat there."""
     T = gel.equilibrium_temperature(np.array([phi * (1 - NUDGE), phi, phi * (1 + NUDGE)]))
     return float(np.ptp(T)) + ROUNDING * float(T[1])
@@ -50,7 +51,7 @@ def _transitions(tables, gels) -> Iterator[Finding]:
     folds = {
         name: (
             np.sort(table.fold_temperature.values),
-            [_fold_uncertainty(gels[name], phi) for phi in table.fold_polymer_fraction.values],
+            [fold_uncertainty(gels[name], phi) for phi in table.fold_polymer_fraction.values],
         )
         for name, table in tables.items()
     }
@@ -101,7 +102,7 @@ def _low_temperatures(tables, gels) -> Iterator[Finding]:
         errors.append(float(asymptote[0] / phi[0]) - 1.0)
         cold = table.equilibrium_temperature.values == COLD
         at_300.append(float(table.equilibrium_polymer_fraction.values[cold].min()))
-        root_doubts.append(_root_uncertainty(gels[name], at_300[-1], COLD))
+        root_doubts.append(root_uncertainty(gels[name], at_300[-1], COLD))
     yield Finding(
         "phi0-asymptote",
         "appendix A",
@@ -141,8 +142,8 @@ def _moduli(tables, gels) -> Iterator[Finding]:
         "mu-independent-of-phi",
         "appendix A",
         "the shear modulus does not depend on the polymer fraction, and grows with temperature",
-        holds(1e-6 - spread, 0.0),
-        1e-6,
+        holds(STRAIN - spread, 0.0),
+        STRAIN,
         "gelpump.claims.materials: neo-Hookean chains under a small shear",
         measure=spread,
         measured="relative spread of mu_s at fixed k_B T over phi from 0.001 to 0.9:",
@@ -164,14 +165,14 @@ def _moduli(tables, gels) -> Iterator[Finding]:
     )
 
 
-def _sheared(gel, phi, phi_00: float = 0.05, strain: float = 1e-6):
+def _sheared(gel, phi, phi_00: float = 0.05):
     """sigma_xy / (2 epsilon_xy) of the chains' stress phi F F^T / (Omega phi_00^(2/3)).
 
     The deformation gradient is that of a displacement with Cauchy strain c I - epsilon, where
     c = (phi/phi_00)^(1/3): F = (c I - epsilon)^-1, in the plane of the shear.
     """
     c = np.cbrt(phi / phi_00)
-    inverse = c[:, None, None] * np.eye(2) - strain * np.array([[0.0, 1.0], [1.0, 0.0]])
+    inverse = c[:, None, None] * np.eye(2) - STRAIN * np.array([[0.0, 1.0], [1.0, 0.0]])
     F = np.linalg.inv(inverse)
     stress = phi * (F @ F.transpose(0, 2, 1))[:, 0, 1] / (gel.Omega * phi_00 ** (2 / 3))
-    return stress / (2.0 * strain)
+    return stress / (2.0 * STRAIN)

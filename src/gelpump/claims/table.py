@@ -9,6 +9,7 @@ STATUSES = ("reproduced", "deviates", "inconsistent-in-paper", "qualitative")
 
 
 SIGNIFICANT = 6  # digits that are shown at most
+SMALLEST = -4  # power of ten below which a number is shown with one
 
 
 def digits(value: float, uncertainty: float | None) -> str:
@@ -17,8 +18,15 @@ def digits(value: float, uncertainty: float | None) -> str:
         return f"{value:.{SIGNIFICANT}g}"
     if abs(value) <= abs(uncertainty):
         return f"{value:.1g}"
-    decimals = min(_decimals(uncertainty), SIGNIFICANT - 1 - floor(log10(abs(value))))
+    decimals, size = _shown(value, uncertainty), floor(log10(abs(value)))
+    if size < SMALLEST:
+        return f"{value:.{decimals + size}e}"
     return f"{round(value, decimals):.{max(decimals, 0)}f}"
+
+
+def _shown(value: float, uncertainty: float) -> int:
+    """Decimals to which ``value`` is shown."""
+    return min(_decimals(uncertainty), SIGNIFICANT - 1 - floor(log10(abs(value))))
 
 
 def _decimals(uncertainty: float) -> int:
@@ -39,9 +47,12 @@ def number(value: Any, uncertainty: Any = None) -> str:
         many = uncertainty if isinstance(uncertainty, list) else [uncertainty] * len(value)
         return ", ".join(number(v, u) for v, u in zip(value, many, strict=True))
     text = digits(value, uncertainty)
-    shown = len(text.partition(".")[2])
-    hidden = not uncertainty or (uncertainty < 0.5 * 10.0**-shown and abs(value) > uncertainty)
-    return text if hidden else f"{text} ± {uncertainty:.1g}"
+    if not uncertainty:
+        return text
+    seen = abs(value) <= uncertainty or uncertainty >= 0.5 * 10.0 ** -_shown(value, uncertainty)
+    doubt = f"{uncertainty:.1g}"
+    doubt = f"{float(doubt):.0f}" if "e+" in doubt else doubt
+    return f"{text} ± {doubt}" if seen else text
 
 
 def counts(claims: Sequence[Mapping[str, Any]]) -> dict[str, int]:

@@ -35,10 +35,13 @@ def status(finding: Finding, published: Mapping[str, Any] | None) -> str:
 
 
 def relative_difference(finding: Finding, published: Mapping[str, Any] | None) -> float | None:
-    """Largest |computed - published| / |published|; None where either is not a number."""
+    """Largest |computed - published| / |published|; None where either is not a number, or the
+    latter is zero."""
     if published is None or finding.computed is None or isinstance(finding.computed, bool):
         return None
     value = np.asarray(published["value"], dtype=float)
+    if not np.all(value):
+        return None
     return float(np.max(np.abs((finding.computed - value) / value)))
 
 

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from gelpump.ledger.entry import Entry
+from gelpump.uncertainty import rounding_error
 
 
 def entries(data: Mapping, gels: Mapping, cases: Mapping, published: Mapping) -> Iterator[Entry]:
@@ -68,7 +69,11 @@ def separation_criterion(data: Mapping, gel) -> Entry:
     """LENS's D where the nonlinear model has already stopped being parabolic."""
     bead = data["bead_separating_nonlinear"]
     phi, T = bead.attrs["stopped_polymer_fraction"], bead.attrs["temperature"]
-    D = float(gel.diffusivity(phi, T)) / gel.shear_modulus(1.0)
+
+    def diffusivity(phi, T):
+        return gel.diffusivity(phi, T) / gel.shear_modulus(1.0)
+
+    D = float(diffusivity(phi, T))
     return Entry(
         "separation-criterion",
         "section 2.1.1",
@@ -78,7 +83,7 @@ def separation_criterion(data: Mapping, gel) -> Entry:
         f"{data['bead_separating_lens'].attrs['stopped_t']:.3g}",
         max(D, 0.0),
         "LENS's D at the nonlinear model's loss (304 to 308 K), in k mu_s/mu_l",
-        0.0,
+        float(rounding_error(diffusivity, phi, T)),
         separation_criterion,
         "data/bead_separating_nonlinear.nc: stopped_polymer_fraction",
     )

@@ -5,8 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from gelpump.ledger.entry import Entry
-
-ROUNDING = 1e-12
+from gelpump.uncertainty import rounding_error
 
 
 def entries(data: Mapping, gels: Mapping, published: Mapping) -> Iterator[Entry]:
@@ -21,19 +20,23 @@ def reference_state(data: Mapping, gel) -> Entry:
     bead = data["bead_drying_lens"]
     phi_00 = float(bead.polymer_fraction[0, 0])
     phi_0, T = float(bead.polymer_fraction[-1].mean()), float(bead.attrs["temperature"])
+
+    def change(phi):
+        derived = gel.diffusivity(phi, T)
+        elastic = 4.0 / 3.0 * gel.shear_modulus(phi_00) * np.cbrt(phi / phi_00)
+        return elastic * (np.cbrt(phi_00 / phi_0) - 1.0) / derived
+
     phi = np.linspace(phi_00, phi_0, 200)
-    derived = gel.diffusivity(phi, T)
-    elastic = 4.0 / 3.0 * gel.shear_modulus(phi_00) * np.cbrt(phi / phi_00)
-    printed = derived + elastic * (np.cbrt(phi_00 / phi_0) - 1.0)
+    largest = phi[np.argmax(np.abs(change(phi)))]
     return Entry(
         "diffusivity-reference-state",
         "eqn:lens_transport, eqn:tube_evolution",
         "the elastic part of D holds (phi/phi_0)^(1/3) in one equation and (phi/phi_00)^(1/3) in "
         "another",
         "the derivation gives phi_00, and then D does not depend on the reference at all",
-        float(np.abs(printed / derived - 1.0).max()),
+        float(np.abs(change(largest))),
         "largest relative change of D while the bead dries",
-        ROUNDING,
+        float(rounding_error(change, largest)),
         reference_state,
         "data/bead_drying_lens.nc: polymer_fraction",
     )

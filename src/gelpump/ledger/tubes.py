@@ -5,8 +5,10 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from gelpump.ledger.entry import Entry
+from gelpump.tube.flow import source_coefficient
+from gelpump.uncertainty import rounding_error
 
-ROUNDING = 1e-12
+EPS = np.finfo(float).eps
 DRAWN_ELL = [0.1, 0.25, 0.5, 0.75, 0.9]  # the tubes of figure 9
 
 
@@ -14,26 +16,35 @@ def entries(data: Mapping, tube: Mapping, scales: Mapping, published: Mapping) -
     """data: datasets of the tubes; tube, scales: their config blocks."""
     pulse, fit = data["tube_pulse"], data["front_fit"]
     lumen, budget = data["lumen_pulse"], data["water_budget"]
+    refinement = data["refinement/tube_pulse"]
     yield drawn_front(pulse, published)
     yield sharpness_of_thin_tubes(fit, published)
     yield drawn_exponent(fit, published)
     yield caption_of_figure_10(published)
     yield lumen_prefactor(lumen, tube)
-    yield pulse_height(lumen)
+    yield pulse_height(lumen, refinement, published)
     yield radial_source(budget)
     yield scaled_equation()
     yield interstitial_factor(data["tube_flow_whole"])
-    yield lumen_matching(lumen)
-    yield continuous_velocity(lumen)
-    yield front_asymmetry(fit, pulse)
-    yield tanh_far_velocity(lumen)
-    yield departure_from_equilibrium(fit, pulse)
-    yield radial_dominance(budget)
+    yield lumen_matching(lumen, refinement)
+    yield continuous_velocity(lumen, refinement)
+    yield front_asymmetry(fit, pulse, refinement)
+    yield tanh_far_velocity(lumen, fit, refinement)
+    yield departure_from_equilibrium(fit, pulse, refinement)
+    yield radial_dominance(budget, refinement)
     yield lumen_coupling(scales, tube)
 
 
 def _of_figure(dataset, **at):
     return dataset.sel(ell=DRAWN_ELL, method="nearest").sel(**at, method="nearest")
+
+
+def _relative(refinement, *names: str) -> float:
+    """Largest relative uncertainty of a product or a quotient of refined quantities."""
+    return sum(
+        float((refinement[f"{name}_uncertainty"] / abs(refinement[name].isel(level=0))).max())
+        for name in names
+    )
 
 
 def drawn_front(pulse, published: Mapping) -> Entry:
@@ -125,25 +136,28 @@ def lumen_prefactor(lumen, tube: Mapping) -> Entry:
         f"the peak is {float(at_A.V_max):.1f}",
         float(at_A.V_max / at_A.V_max_plotted) - 1.0,
         "V of eqn:lumen over V drawn, minus one",
-        ROUNDING,
+        float(rounding_error(np.divide, at_A.V_max, at_A.V_max_plotted)),
         lumen_prefactor,
         "data/lumen_pulse.nc: V_max, V_max_plotted",
     )
 
 
-def pulse_height(lumen) -> Entry:
+def pulse_height(lumen, refinement, published: Mapping) -> Entry:
     """How the height of the pulse depends on ell: text, figure and eqn:lumen."""
     late = _of_figure(lumen, tau=0.1)
-    power = np.polyfit(np.log(1.0 - late.ell), np.log(late.V_front_printed), 1)[0]
+    claim = published["lumen-height-vs-ell"]
+    ln_thickness = np.log(1.0 - late.ell.values)
+    power = np.polyfit(ln_thickness, np.log(late.V_front_printed), 1)[0]
+    doubt = 2.0 * _relative(refinement, "V_front_printed") / np.ptp(ln_thickness)
     return Entry(
         "pulse-height",
         "section 3.6.2, figure 12",
         "the text says that the pulse's height grows with ell, the figure that V_max ~ 1 - ell",
         f"with its prefactor V_max follows (1-ell)^{power:.2f}: the text is right, the figure is "
         "without the prefactor",
-        float(power - 1.0),
+        float(power - claim["drawn"]),
         "power of 1-ell in V_max minus the figure's",
-        0.05,
+        float(claim["drawn_resolution"] + doubt),
         pulse_height,
         "data/lumen_pulse.nc: V_front_printed",
     )
@@ -151,7 +165,8 @@ def pulse_height(lumen) -> Entry:
 
 def radial_source(budget) -> Entry:
     """The coefficient 16 of F against the one that the stated conditions on Phi_2 give."""
-    kappa = budget.source_coefficient.sel(ell=DRAWN_ELL, method="nearest").values
+    of_figure = budget.sel(ell=DRAWN_ELL, method="nearest")
+    kappa = of_figure.source_coefficient.values
     return Entry(
         "radial-structure",
         "eqn:phi2, eqn:tube_model",
@@ -162,7 +177,7 @@ def radial_source(budget) -> Entry:
         "as long",
         (16.0 - kappa).tolist(),
         "16 minus the coefficient for ell = " + ", ".join(f"{e:g}" for e in DRAWN_ELL),
-        ROUNDING,
+        rounding_error(source_coefficient, of_figure.ell).tolist(),
         radial_source,
         "data/water_budget.nc: source_coefficient",
     )
@@ -176,14 +191,18 @@ def scaled_equation() -> Entry:
     R = np.linspace(0.5, 1.0, 5)
     slope = np.polynomial.Polynomial([0.0, 0.0, 1.0]).deriv()
     flux = np.polynomial.Polynomial([0.0, 1.0]) * slope
+
+    def missing(R):
+        return flux.deriv()(R) / R - flux(R) / R
+
     return Entry(
         "scaled-equation",
         "eqn:evolution_scaled",
         "the first term on the right is (1/R) [R D dphi_2/dR]",
         "a d/dR is missing in front of the bracket",
-        float(np.max(flux.deriv()(R) / R - flux(R) / R)),
+        float(np.max(missing(R))),
         "difference of the two for phi_2 = R^2, D = 1",
-        ROUNDING,
+        float(np.max(rounding_error(missing, R))),
         scaled_equation,
         "two polynomials",
     )
@@ -192,22 +211,21 @@ def scaled_equation() -> Entry:
 def interstitial_factor(flow) -> Entry:
     """U_g as printed for the lumen against U_g of eqn:ug."""
     printed, derived = flow.u_r_without_Phi1, flow.u_r
-    moving = np.abs(derived) > 1e-3 * float(np.abs(derived).max())
-    ratio = (printed / derived.where(moving)).max()
+    ratio = float((printed / derived.where(derived != 0.0)).max())
     return Entry(
         "interstitial-velocity",
         "eqn:ug, section 3.6.2",
         "U_g is printed as D dPhi_2/dR for the lumen, and as (D/Phi_1) dPhi_2/dR in eqn:ug",
         "eqn:ug is right: the printed one is Phi_1 times too large",
-        float(ratio) - 1.0,
+        ratio - 1.0,
         "largest printed over derived U_g, minus one",
-        ROUNDING,
+        3.0 * EPS * ratio,  # one was multiplied, and both are divided
         interstitial_factor,
         "data/tube_flow_whole.nc: u_r, u_r_without_Phi1",
     )
 
 
-def lumen_matching(lumen) -> Entry:
+def lumen_matching(lumen, refinement) -> Entry:
     """The printed lumen velocity against the one that matches U_g at the inner wall."""
     late = _of_figure(lumen, tau=0.1)
     ratio = (late.V_front_printed / late.V_front_matched).values
@@ -219,13 +237,13 @@ def lumen_matching(lumen) -> Entry:
         (ratio - 1.0).tolist(),
         "V printed over V matched at Z_C, minus one, for ell = "
         + ", ".join(f"{e:g}" for e in DRAWN_ELL),
-        ROUNDING,
+        (_relative(refinement, "V_front_printed", "V_front_matched") * ratio).tolist(),
         lumen_matching,
         "data/lumen_pulse.nc: V_front_printed, V_front_matched",
     )
 
 
-def continuous_velocity(lumen) -> Entry:
+def continuous_velocity(lumen, refinement) -> Entry:
     """The matched lumen velocity against the one that conserves water at the moving wall."""
     late = _of_figure(lumen, tau=0.1)
     ratio = (late.V_front_continuous_level / late.V_front_matched).values
@@ -237,13 +255,13 @@ def continuous_velocity(lumen) -> Entry:
         (ratio - 1.0).tolist(),
         "V with the wall's motion over V matched at Z_C, minus one, for ell = "
         + ", ".join(f"{e:g}" for e in DRAWN_ELL),
-        ROUNDING,
+        (_relative(refinement, "V_front_continuous_level", "V_front_matched") * ratio).tolist(),
         continuous_velocity,
         "data/lumen_pulse.nc: V_front_continuous_level, V_front_matched",
     )
 
 
-def front_asymmetry(fit, pulse) -> Entry:
+def front_asymmetry(fit, pulse, refinement) -> Entry:
     """Phi_1 at the front against the tanh's value there."""
     middle = float(1.0 + pulse.Phi_inf[0]) / 2.0
     solved = fit.Phi1_front.sel(ell=DRAWN_ELL, method="nearest").values
@@ -254,17 +272,18 @@ def front_asymmetry(fit, pulse) -> Entry:
         f"Phi_1 at Z_C is {solved.min():.3f} to {solved.max():.3f}: the front is not symmetric",
         (middle - solved).tolist(),
         "tanh minus solved Phi_1 at Z_C for ell = " + ", ".join(f"{e:g}" for e in DRAWN_ELL),
-        float((fit.A_uncertainty / fit.A).max()),
+        float(refinement.Phi1_front_uncertainty.max()),
         front_asymmetry,
         "data/front_fit.nc: Phi1_front",
     )
 
 
-def tanh_far_velocity(lumen) -> Entry:
+def tanh_far_velocity(lumen, fit, refinement) -> Entry:
     """Lumen velocities of the tanh form against those of the solved Phi_1, both by eqn:lumen."""
     late = _of_figure(lumen, tau=0.1)
     far = (late.V_far_printed / late.V_far_tanh).values
     peak = (late.V_front_printed / late.V_front_tanh).values
+    of_tanh = float((fit.A_uncertainty / fit.A).max())  # V ~ 1/A
     return Entry(
         "tanh-lumen-velocity",
         "section 3.6.2, figure 12",
@@ -274,16 +293,16 @@ def tanh_far_velocity(lumen) -> Entry:
         (far - 1.0).tolist(),
         "V far ahead, solved over tanh, minus one, for ell = "
         + ", ".join(f"{e:g}" for e in DRAWN_ELL),
-        1e-3,
+        ((_relative(refinement, "V_far_printed") + of_tanh) * far).tolist(),
         tanh_far_velocity,
         "data/lumen_pulse.nc: V_far_printed, V_far_tanh",
     )
 
 
-def departure_from_equilibrium(fit, pulse) -> Entry:
+def departure_from_equilibrium(fit, pulse, refinement) -> Entry:
     """Largest departure of Phi_1 from Phi_0, that the scaling takes to be of order eps^2."""
     departure = _of_figure(fit, tau=float(fit.fit_tau)).departure_front.values
-    allowed = float(pulse.eps[0]) ** 2
+    allowed = float(pulse.eps[0]) ** 2 + float(refinement.Phi1_front_uncertainty.max())
     return Entry(
         "closeness-to-equilibrium",
         "section 3.3, appendix B",
@@ -298,7 +317,7 @@ def departure_from_equilibrium(fit, pulse) -> Entry:
     )
 
 
-def radial_dominance(budget) -> Entry:
+def radial_dominance(budget, refinement) -> Entry:
     """How the ratio of radial to axial velocities depends on ell."""
     ratio = _of_figure(budget, tau=0.025).radial_to_axial_velocity.values
     return Entry(
@@ -308,7 +327,7 @@ def radial_dominance(budget) -> Entry:
         "both velocities grow as (1-ell)^-1, so that their ratio hardly changes, and falls",
         float(ratio[0] / ratio[-1] - 1.0),
         f"ratio for ell = {DRAWN_ELL[0]:g} over that for {DRAWN_ELL[-1]:g}, minus one",
-        1e-3,
+        2.0 * _relative(refinement, "radial_to_axial_velocity") * float(ratio[0] / ratio[-1]),
         radial_dominance,
         "data/water_budget.nc: radial_to_axial_velocity",
     )
@@ -323,16 +342,17 @@ def lumen_coupling(scales: Mapping, tube: Mapping) -> Entry:
     ell = 0.25
     G = scales["permeability"] / scales["smallest_radius"] ** 2
     ratio = 8.0 * G * (1.0 + 4.0 * tube["M"] / 3.0) / (ell * (1.0 - ell))
+    neglected = tube["eps"] ** 2  # the size of all that the slender tube leaves out
     return Entry(
         "lumen-coupling",
         "appendix B",
         f"lumen and gel uncouple for a_1 above {scales['smallest_radius']:g} m, since G = "
         f"{G:.2g} << 1",
         f"the term that G stands for is {ratio:.0f} times the other one there (ell = {ell:g}); it "
-        f"falls below a tenth at a_1 = {scales['smallest_radius'] * np.sqrt(10 * ratio):.1g} m",
+        f"falls to eps^2 at a_1 = {scales['smallest_radius'] * np.sqrt(ratio / neglected):.1g} m",
         ratio,
         "neglected over kept term at the smallest a_1",
-        0.1,
+        neglected,
         lumen_coupling,
         "config: scales",
     )

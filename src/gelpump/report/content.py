@@ -71,12 +71,22 @@ class Disagreement:
 
 
 @dataclass(frozen=True)
+class KeyNumber:
+    """A number, or several, that a figure shows; printed to the digits that uncertainty leaves."""
+
+    quantity: Text
+    printed: str
+    unit: Text
+    source: str
+
+
+@dataclass(frozen=True)
 class Figure:
     """A figure with all that is said about it.
 
     name: of its rule.  number: as in the paper, None if it is ours.  caption: paragraphs.  seconds:
     CPU time of its rule from existing data, or None if it was not measured.  files: path by suffix.
-    numbers: its key numbers, rows of ``tables/figure_numbers.json``.
+    numbers: its key numbers.
     """
 
     name: str
@@ -89,7 +99,7 @@ class Figure:
     seconds: float | None
     claims: list[Claim]
     ledger: list[Disagreement]
-    numbers: list[dict[str, Any]] = field(default_factory=list)
+    numbers: list[KeyNumber] = field(default_factory=list)
 
     @property
     def label(self) -> str:
@@ -220,8 +230,7 @@ def gather(
     ]
     ledger = [disagreement(entry) for entry in _read(results / "ledger.json")]
     times = _read(seconds) if seconds.exists() else {}
-    numbers = results / "tables/figure_numbers.json"
-    key_numbers = _read(numbers) if numbers.exists() else []
+    key_numbers = _read(results / "tables/figure_numbers.json")
     drawn = {
         name: _figure(name, rule, config, claims, ledger, times, key_numbers)
         for name, rule in figures.items()
@@ -294,6 +303,16 @@ def disagreement(entry: Mapping[str, Any]) -> Disagreement:
     )
 
 
+def key_number(row: Mapping[str, Any]) -> KeyNumber:
+    """A row of ``figure_numbers.json`` for people."""
+    return KeyNumber(
+        quantity=from_plain(row["quantity"]),
+        printed=row["printed"],
+        unit=from_plain(row["unit"]),
+        source=row["source"],
+    )
+
+
 def numbers(values: float | Sequence[float]) -> str:
     """One number or several, to four digits."""
     return ", ".join(f"{value:.4g}" for value in (values if isinstance(values, list) else [values]))
@@ -324,7 +343,7 @@ def _figure(name, rule, config, claims, ledger, times, key_numbers):
         seconds=times.get(name),
         claims=[each for each in claims if rank in each.figures],
         ledger=[each for each in ledger if rank in each.figures],
-        numbers=[row for row in key_numbers if row.get("figure") in (name, rank)],
+        numbers=[key_number(row) for row in key_numbers if row["figure"] == name],
     )
 
 

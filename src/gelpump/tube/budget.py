@@ -80,7 +80,6 @@ def water_budget(pulse):
     behind_front = (slice(None), slice(None), behind)
     lumen_area = np.pi * ell**2
     V = {name: form(wall)[..., -1] for name, form in lumen.VELOCITIES.items()}
-    speed = wall.radial_velocity_printed(np.ones(1))[..., 0]
     data |= {
         "axial_rate_front": variable(
             ("ell", "tau"),
@@ -96,7 +95,7 @@ def water_budget(pulse):
         ),
         "radial_to_axial_velocity": variable(
             ("ell", "tau"),
-            wall.eps[..., 0] * np.abs(speed).max(axis=-1) / np.abs(V_g).max(axis=-1),
+            wall.radial_to_axial_velocity,
             "largest radial over largest axial interstitial velocity, both in the same units",
             "U_g of eqn:ug with eqn:phi2 at the outer edge of the wall",
         ),

@@ -149,6 +149,21 @@ class Wall:
         """Axial velocity of the polymer on the faces; the section Z = 0 does not move."""
         return -(self.integral(self.F / self.Phi1) + self.axial_velocity_face) / 3
 
+    @property
+    def largest_axial_velocity(self):
+        """Largest |V_g| along the tube."""
+        return np.abs(self.axial_velocity_face).max(axis=-1)
+
+    @property
+    def largest_radial_velocity(self):
+        """Largest |U_g| of eqn:ug with eqn:phi2, which is at the outer edge."""
+        return np.abs(self.radial_velocity_printed(np.ones(1))[..., 0]).max(axis=-1)
+
+    @property
+    def radial_to_axial_velocity(self):
+        """The one over the other, in the same units."""
+        return self.eps[..., 0] * self.largest_radial_velocity / self.largest_axial_velocity
+
     def radial_velocity_printed(self, s):
         """U_g of eqn:ug with eqn:phi2 in the cells, at the swollen radius s, along a new axis."""
         return self._radial_velocity(_slope_printed, s)

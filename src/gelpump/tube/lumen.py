@@ -43,12 +43,14 @@ dPhi_1/dZ = -2A (Phi_inf - Phi_1)(Phi_1 - 1)/(Phi_inf - 1), no tail and no small
     ahead:   less (Phi_inf - 1)/(2A) Integral_{Phi_1(Z)}^{Phi_1(Z_C)} Phi D/(Phi_inf - Phi) dPhi
 """
 
+from functools import cache
+
 import numpy as np
 
 from gelpump.tube.flow import Wall, lumen_share
 from gelpump.tube.front import tanh_profile
 
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(40)
+NODES, FEWER_NODES = 40, 30  # of the quadrature; the fewer tell how far it may be off
 HOT, COLD = 1.0, -1.0  # temperatures theta of either side
 
 
@@ -104,29 +106,42 @@ def above_far(V, hot):
     return np.where(hot, middle, middle - V[..., -1:])
 
 
+def pulse_flux(wall: Wall, hot):
+    """What the printed pulse carries: V of eqn:lumen over it, less V far ahead before the front."""
+    return wall.integral(above_far(velocity_printed(wall), hot))[..., -1]
+
+
 def prefactor(eps, one_minus_ell):
     """What eqn:lumen has before its integral, and figure 12 has not."""
     return 8 / (eps * one_minus_ell) ** 2
 
 
-def velocity_tanh(gel, A, Z, Z_C):
+def velocity_tanh(gel, A, Z, Z_C, nodes=NODES):
     """Integral_0^Z Phi_1 D (Phi_0 - Phi_1) dZ of the tanh form; arguments are broadcast."""
     A, Z, Z_C = np.broadcast_arrays(*(np.asarray(value, float) for value in (A, Z, Z_C)))
     start = tanh_profile(-A * Z_C, gel.Phi_inf)
     middle = (1 + gel.Phi_inf) / 2
     here = tanh_profile(A * (Z - Z_C), gel.Phi_inf)
     behind = _integral(
-        lambda Phi: Phi * gel.diffusivity(Phi, HOT) / (Phi - 1), np.maximum(here, middle), start
+        lambda Phi: Phi * gel.diffusivity(Phi, HOT) / (Phi - 1),
+        np.maximum(here, middle),
+        start,
+        nodes,
     )
     ahead = _integral(
         lambda Phi: Phi * gel.diffusivity(Phi, COLD) / (gel.Phi_inf - Phi),
         np.minimum(here, middle),
         middle,
+        nodes,
     )
     return (gel.Phi_inf - 1) / (2 * A) * (behind - ahead)
 
 
-def _integral(integrand, low, high):
+_rule = cache(np.polynomial.legendre.leggauss)
+
+
+def _integral(integrand, low, high, nodes):
     """Gauss-Legendre; the integrands' poles are half the jump away from the ends."""
+    node, weight = _rule(nodes)
     half = (high - low)[..., np.newaxis] / 2
-    return (WEIGHTS * half * integrand(low[..., np.newaxis] + half * (1 + NODES))).sum(axis=-1)
+    return (weight * half * integrand(low[..., np.newaxis] + half * (1 + node))).sum(axis=-1)

@@ -1,6 +1,7 @@
 """Dataset of the pulse of water in the lumen (figure 12): from the tanh form, and as solved."""
 
 from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -9,6 +10,7 @@ from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
 from gelpump.tube.flow import Wall
 from gelpump.tube.front import PowerLaw
+from gelpump.uncertainty import quadrature_error
 
 FAR = 1e9  # beyond any pulse
 
@@ -26,8 +28,15 @@ def lumen_pulse(gel, tube: Mapping, settings: Mapping, pulse, fit) -> xr.Dataset
     Z_C = here.Z_C.values
     Z = np.unique(np.concatenate([np.linspace(*settings["Z"], settings["Z_count"]), Z_C]))
     plotted = lumen.velocity_tanh(gel, settings["drawn_A"], Z, Z_C[:, np.newaxis])
-    highest = lumen.velocity_tanh(gel, A, Z_C[-1], Z_C[-1])
-    far = lumen.velocity_tanh(gel, A, FAR, Z_C[-1])
+
+    def at(Z):
+        return partial(lumen.velocity_tanh, gel, A, Z, Z_C[-1])
+
+    highest, far = at(Z_C[-1])(), at(FAR)()
+    errors = {
+        name: quadrature_error(at(Z), lumen.NODES, lumen.FEWER_NODES)
+        for name, Z in (("V_max_plotted", Z_C[-1]), ("V_far_plotted", FAR))
+    }
     thickness = law.one_minus_ell(A)
     before = lumen.prefactor(tube["eps"], thickness)
     drawn = lumen.prefactor(tube["eps"], law.one_minus_ell(settings["drawn_A"]))
@@ -56,6 +65,12 @@ def lumen_pulse(gel, tube: Mapping, settings: Mapping, pulse, fit) -> xr.Dataset
         ),
         "drawn_A": variable((), float(settings["drawn_A"]), "A of V(tau, Z)", "in units of 1/L"),
         "Z_C": variable("tau", Z_C, "position of the front", scaling.AXIAL),
+    }
+    data |= {
+        f"{name}_uncertainty": variable(
+            "A", error, f"numerical uncertainty: {data[name][2]['long_name']}"
+        )
+        for name, error in errors.items()
     }
     data |= _solved(gel, tube, here, fit)
     return xr.Dataset(
@@ -105,7 +120,7 @@ def _solved(gel, tube, here, fit):
     area = np.pi * ell[..., np.newaxis] ** 2 * wall.Phi1 ** (-2 / 3)
     data["pulse_flux"] = variable(
         dims,
-        wall.integral(above)[..., -1],
+        lumen.pulse_flux(wall, here.hot.values),
         "V of eqn:lumen integrated over the pulse, less V far ahead in front of Z_C",
         "in units of L^2 per poroelastic time mu_l L^2/(k Pi_00)",
     )

@@ -1,12 +1,10 @@
 """Production and refinement runs of the family of tubes behind a pulse of heat."""
 
 from collections.abc import Mapping
-from functools import partial
 
 import numpy as np
 import xarray as xr
 
-from gelpump.finite_volume import together
 from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
 from gelpump.tube.deswelling import Tubes
@@ -80,8 +78,8 @@ def refinement(
         {**loose, "cells": [behind, REACH_FACTOR * ahead], "reach": REACH_FACTOR * loose["reach"]},
     ]
     here = production.sel(ell=ell, tau=tau, method="nearest")
-    runs = together(*(partial(pulse, gel, tube, ell, tau, level) for level in levels[1:]))
-    return compared(levels, [here, *runs])
+    runs = [here, *(pulse(gel, tube, ell, tau, level) for level in levels[1:])]
+    return compared(levels, runs)
 
 
 def compared(levels: list[Mapping], runs: list[xr.Dataset]) -> xr.Dataset:
@@ -121,6 +119,14 @@ def compared(levels: list[Mapping], runs: list[xr.Dataset]) -> xr.Dataset:
     )
 
 
+def _in_wall(name):
+    return lambda run: getattr(Wall.of(run), name)
+
+
+def _pulse_flux(run):
+    return lumen.pulse_flux(Wall.of(run), run.hot.values)
+
+
 def _front_velocity(form):
     return lambda run: form(Wall.of(run))[..., int(run.hot.sum())]
 
@@ -135,6 +141,26 @@ MEASURED = {
         "polymer fraction in the middle of the wall at Z_C",
         scaling.POLYMER,
         lambda run: run.Phi1_front.values,
+    ),
+    "axial_velocity": (
+        "largest axial interstitial velocity in the wall",
+        scaling.AXIAL_VELOCITY,
+        _in_wall("largest_axial_velocity"),
+    ),
+    "radial_velocity": (
+        "largest radial interstitial velocity in the wall, eqn:ug with eqn:phi2",
+        scaling.RADIAL_VELOCITY,
+        _in_wall("largest_radial_velocity"),
+    ),
+    "radial_to_axial_velocity": (
+        "largest radial over largest axial interstitial velocity, both in the same units",
+        "U_g of eqn:ug with eqn:phi2 at the outer edge of the wall",
+        _in_wall("radial_to_axial_velocity"),
+    ),
+    "pulse_flux": (
+        "V of eqn:lumen integrated over the pulse, less V far ahead in front of Z_C",
+        "in units of L^2 per poroelastic time mu_l L^2/(k Pi_00)",
+        _pulse_flux,
     ),
 }
 for _name, _form in lumen.VELOCITIES.items():

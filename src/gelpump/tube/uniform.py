@@ -5,7 +5,14 @@ import xarray as xr
 
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
-from gelpump.tube.deswelling import Tubes, deswelling_curve, deswelling_time
+from gelpump.tube.deswelling import (
+    FEWER_NODES,
+    NODES,
+    Tubes,
+    deswelling_curve,
+    deswelling_time,
+)
+from gelpump.uncertainty import quadrature_error
 
 TAU99 = "time until the polymer fraction has made 99 per cent of its change"
 TIME = "in units of mu_l L^2/(k Pi_00)"
@@ -21,13 +28,9 @@ def deswelling_map(gel, eps, settings):
     here = Tubes(ell, eps, gel.M, gel.Pi_ratio, gel.Phi_inf)
     return xr.Dataset(
         {
-            "tau99": variable(("M", "Pi_ratio"), deswelling_time(grid), TAU99, TIME),
-            "tau99_contrast": variable(
-                ("M", "Phi_inf"), deswelling_time(contrast), f"{TAU99}, for other Phi_inf", TIME
-            ),
-            "tau99_compared": variable(
-                "ell", deswelling_time(here), f"{TAU99}, for other tubes", TIME
-            ),
+            **_time("tau99", ("M", "Pi_ratio"), grid, TAU99),
+            **_time("tau99_contrast", ("M", "Phi_inf"), contrast, f"{TAU99}, for other Phi_inf"),
+            **_time("tau99_compared", "ell", here, f"{TAU99}, for other tubes"),
             "map_ell": variable((), settings["ell"], "ell of the maps"),
             "eps": variable((), eps, "slenderness a_1/L"),
         },
@@ -55,12 +58,28 @@ def deswelling_curves(gel, eps, settings):
         ("", "deswelling", False),
         ("_reswelling", "reswelling", True),
     ):
-        Phi1 = deswelling_curve(tau[:, np.newaxis], tubes, reswelling).T
-        data[f"Phi1{suffix}"] = variable(
-            ("ell", "tau"), Phi1, f"polymer fraction in the middle of the wall, {process}",
-            scaling.POLYMER,
-        )  # fmt: skip
-        data[f"tau99{suffix}"] = variable(
-            "ell", deswelling_time(tubes, reswelling=reswelling), f"{TAU99}, {process}", TIME
-        )
+
+        def course(nodes, reswelling=reswelling):
+            return deswelling_curve(tau[:, np.newaxis], tubes, reswelling, nodes).T
+
+        text = f"polymer fraction in the middle of the wall, {process}"
+        data |= _with_uncertainty(f"Phi1{suffix}", ("ell", "tau"), course, text, scaling.POLYMER)
+        data |= _time(f"tau99{suffix}", "ell", tubes, f"{TAU99}, {process}", reswelling)
     return xr.Dataset(data, coords={"ell": scaling.ell(ell), "tau": scaling.tau(tau)})
+
+
+def _time(name, dims, tubes, text, reswelling=False):
+    """tau_99 of the tubes, with its uncertainty."""
+
+    def time(nodes):
+        return deswelling_time(tubes, reswelling=reswelling, nodes=nodes)
+
+    return _with_uncertainty(name, dims, time, text, TIME)
+
+
+def _with_uncertainty(name, dims, formula, text, comment):
+    error = quadrature_error(formula, NODES, FEWER_NODES)
+    return {
+        name: variable(dims, formula(NODES), text, comment),
+        f"{name}_uncertainty": variable(dims, error, f"numerical uncertainty: {text}", comment),
+    }

@@ -1,0 +1,46 @@
+"""Key numbers of figures, and the uncertainties that are theirs alone."""
+
+import numpy as np
+import pytest
+
+from gelpump.claims import figure_numbers
+from gelpump.claims.figure_numbers import KeyNumber, half_time
+from gelpump.claims.tubes import slope
+
+
+@pytest.mark.parametrize("count", [60, 120, 240])
+def test_half_of_the_change_is_found_between_outputs(count):
+    t = np.linspace(0.0, 1.0, count) ** 2
+    found, error = half_time(t, 1.0 + np.tanh(3.0 * t))
+    exact = np.arctanh(0.5 * np.tanh(3.0)) / 3.0
+    assert abs(found - exact) <= error <= 1e-3 / (count / 60) ** 2.5
+
+
+def test_a_fold_is_located_by_its_curvature():
+    def curve(phi):
+        return 300.0 + 40.0 * (phi - 0.3) ** 2
+
+    error = figure_numbers._located(curve, 0.3)
+    assert curve(0.3 + 0.5 * error) == pytest.approx(300.0, abs=np.spacing(300.0))
+    assert error == pytest.approx(np.sqrt(np.spacing(300.0) / 40.0), rel=0.05)
+
+
+def test_a_power_is_as_uncertain_as_what_follows_it():
+    x = np.array([0.1, 0.25, 0.5, 0.75, 0.9])
+    power, doubt = slope(x, x**-2.0, 0.01)
+    assert power == pytest.approx(-2.0)
+    worst = slope(x, x**-2.0 * (1.0 + 0.01 * np.sign(np.log(x / 0.35))))[0]
+    assert abs(worst + 2.0) <= 1.01 * doubt
+    assert slope(x, x**-2.0)[1] < 1e-14
+
+
+def test_a_number_is_printed_to_its_uncertainty():
+    record = KeyNumber("fig", "radius", [1.5, 2.0], [1e-3, 1e-9], "refinement", "file").record()
+    assert record["printed"] == "1.500 ± 0.001, 2.00000"
+    page = figure_numbers.markdown([record])
+    assert page.count("\n| fig |") == 1
+
+
+def test_a_number_that_is_not_finite_is_an_error():
+    with pytest.raises(ValueError, match="fig, radius"):
+        KeyNumber("fig", "radius", np.nan, 0.0, "refinement", "file").record()

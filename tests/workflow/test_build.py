@@ -52,7 +52,7 @@ def test_every_figure_has_key_numbers_with_their_uncertainty(built):
 
 def test_a_rebuild_gives_the_same_bytes(built):
     results = built.path / "results"
-    patterns = ("*.nc", "*.png", "*.pdf", "*.svg")
+    patterns = ("*.nc", "*.png", "*.pdf", "*.svg", "*.csv")
     before = digests(results, *patterns)
     again = [
         "results/data/materials_ANB.nc",
@@ -62,7 +62,7 @@ def test_a_rebuild_gives_the_same_bytes(built):
         *(
             f"results/figures/{figure}.{suffix}"
             for figure in ("fig01_lens_schematic", "fig03_swell_bead", "fig13_osmotic")
-            for suffix in ("pdf", "png", "svg")
+            for suffix in ("pdf", "png", "svg", "csv")
         ),
     ]
     for file in again:

@@ -28,6 +28,7 @@ rule fig01_lens_schematic:
         src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig01_lens_schematic"),
     output:
         pdf="results/figures/fig01_lens_schematic.pdf",
+        csv="results/figures/fig01_lens_schematic.csv",
         svg="results/figures/fig01_lens_schematic.svg",
         png=report(
             "results/figures/fig01_lens_schematic.png",
@@ -52,6 +53,7 @@ rule fig02_osmotic_schema:
         src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig02_osmotic_schema"),
     output:
         pdf="results/figures/fig02_osmotic_schema.pdf",
+        csv="results/figures/fig02_osmotic_schema.csv",
         svg="results/figures/fig02_osmotic_schema.svg",
         png=report(
             "results/figures/fig02_osmotic_schema.png",
@@ -83,6 +85,7 @@ rule fig03_swell_bead:
         ),
     output:
         pdf="results/figures/fig03_swell_bead.pdf",
+        csv="results/figures/fig03_swell_bead.csv",
         svg="results/figures/fig03_swell_bead.svg",
         png=report(
             "results/figures/fig03_swell_bead.png",
@@ -116,6 +119,7 @@ rule fig04_dry_bead:
         ),
     output:
         pdf="results/figures/fig04_dry_bead.pdf",
+        csv="results/figures/fig04_dry_bead.csv",
         svg="results/figures/fig04_dry_bead.svg",
         png=report(
             "results/figures/fig04_dry_bead.png",
@@ -145,6 +149,7 @@ rule fig05_spinodal:
         src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig05_spinodal"),
     output:
         pdf="results/figures/fig05_spinodal.pdf",
+        csv="results/figures/fig05_spinodal.csv",
         svg="results/figures/fig05_spinodal.svg",
         png=report(
             "results/figures/fig05_spinodal.png",
@@ -176,6 +181,7 @@ rule fig06_tube_schematic:
         ),
     output:
         pdf="results/figures/fig06_tube_schematic.pdf",
+        csv="results/figures/fig06_tube_schematic.csv",
         svg="results/figures/fig06_tube_schematic.svg",
         png=report(
             "results/figures/fig06_tube_schematic.png",
@@ -201,6 +207,7 @@ rule fig07_deswelling:
         src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig07_deswelling"),
     output:
         pdf="results/figures/fig07_deswelling.pdf",
+        csv="results/figures/fig07_deswelling.csv",
         svg="results/figures/fig07_deswelling.svg",
         png=report(
             "results/figures/fig07_deswelling.png",
@@ -232,6 +239,7 @@ rule fig08_profiles:
         ),
     output:
         pdf="results/figures/fig08_profiles.pdf",
+        csv="results/figures/fig08_profiles.csv",
         svg="results/figures/fig08_profiles.svg",
         png=report(
             "results/figures/fig08_profiles.png",
@@ -258,6 +266,7 @@ rule fig09_relax:
         src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig09_relax"),
     output:
         pdf="results/figures/fig09_relax.pdf",
+        csv="results/figures/fig09_relax.csv",
         svg="results/figures/fig09_relax.svg",
         png=report(
             "results/figures/fig09_relax.png",
@@ -290,6 +299,7 @@ rule fig10_flow:
         ),
     output:
         pdf="results/figures/fig10_flow.pdf",
+        csv="results/figures/fig10_flow.csv",
         svg="results/figures/fig10_flow.svg",
         png=report(
             "results/figures/fig10_flow.png",
@@ -325,6 +335,7 @@ rule fig11_flow_close:
         ),
     output:
         pdf="results/figures/fig11_flow_close.pdf",
+        csv="results/figures/fig11_flow_close.csv",
         svg="results/figures/fig11_flow_close.svg",
         png=report(
             "results/figures/fig11_flow_close.png",
@@ -353,6 +364,7 @@ rule fig12_axial_flow:
         src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig12_axial_flow"),
     output:
         pdf="results/figures/fig12_axial_flow.pdf",
+        csv="results/figures/fig12_axial_flow.csv",
         svg="results/figures/fig12_axial_flow.svg",
         png=report(
             "results/figures/fig12_axial_flow.png",
@@ -381,6 +393,7 @@ rule fig13_osmotic:
         src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig13_osmotic"),
     output:
         pdf="results/figures/fig13_osmotic.pdf",
+        csv="results/figures/fig13_osmotic.csv",
         svg="results/figures/fig13_osmotic.svg",
         png=report(
             "results/figures/fig13_osmotic.png",
@@ -407,6 +420,7 @@ rule fig14_equilibrium:
         src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig14_equilibrium"),
     output:
         pdf="results/figures/fig14_equilibrium.pdf",
+        csv="results/figures/fig14_equilibrium.csv",
         svg="results/figures/fig14_equilibrium.svg",
         png=report(
             "results/figures/fig14_equilibrium.png",

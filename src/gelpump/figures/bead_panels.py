@@ -8,6 +8,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from gelpump.figures import style
+from gelpump.figures.style import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -16,6 +17,7 @@ MODELS = {"lens": "LENS", "nonlinear": "nonlinear"}
 COLOURS = {"lens": style.LENS, "nonlinear": style.NONLINEAR}
 RADIUS = r"$r/R_\mathrm{dry}$"
 TIME = r"$t_\mathrm{BMJ}$"
+THINNED = (2, 4)  # of the map, one time in 2 and one shell in 4 are told in numbers
 
 
 def draw(
@@ -39,6 +41,8 @@ def draw(
             linewidth=1.3,
             label=MODELS[model],
         )
+        columns = {Quantity.BEAD_TIME: bead.t, Quantity.BEAD_RADIUS: bead.radius}
+        style.tell(fig, "a", f"radius {MODELS[model]}", columns)
     for model, radii in published.items():
         left.plot(
             case["published_times"],
@@ -48,6 +52,8 @@ def draw(
             zorder=5,
             **style.PUBLISHED_BY_MODEL[model],
         )
+        columns = {Quantity.BEAD_TIME: case["published_times"], Quantity.BEAD_RADIUS: radii}
+        style.tell(fig, "a", f"radius {MODELS[model]} published", columns)
     times = case["profile_times"] or beads["lens"].t.values[:: max(1, beads["lens"].t.size // 8)]
     positive = [t for t in times if t > 0]
     start = min(positive) if time_scale == "log" else 0.0
@@ -76,6 +82,14 @@ def _kymograph(fig, ax, bead, time_scale):
         rasterized=True,
     )
     style.polymer_fraction_bar(fig, mesh, ax, aspect=25, label=r"polymer fraction $\phi$, LENS")
+    times, shells = (slice(None, None, step) for step in THINNED)
+    columns = {
+        Quantity.BEAD_TIME: bead.t.values[first::, np.newaxis][times],
+        Quantity.BEAD_RADIUS: bead.r.values[first:][times, shells],
+        Quantity.POLYMER: phi[times, shells],
+    }
+    every = f"one time in {THINNED[0]} and one shell in {THINNED[1]}"
+    style.tell(fig, "a", f"map LENS ({every})", columns)
 
 
 def _profiles(fig, ax, beads: Mapping[str, "xr.Dataset"], times: Sequence[float]):
@@ -85,13 +99,17 @@ def _profiles(fig, ax, beads: Mapping[str, "xr.Dataset"], times: Sequence[float]
             if time > bead.t.values[-1]:  # the run stopped before
                 continue
             now = bead.sel(t=time, method="nearest")
+            r, phi = _profile(now)
             ax.plot(
-                *_profile(now),
+                r,
+                phi,
                 "-" if model == "lens" else "--",
                 color=colour if model == "lens" else style.NONLINEAR,
                 linewidth=1.3 if model == "lens" else 0.7,
                 dashes=(None, None) if model == "lens" else (3, 2),
             )
+            columns = {Quantity.BEAD_TIME: now.t, Quantity.BEAD_RADIUS: r, Quantity.POLYMER: phi}
+            style.tell(fig, "b", f"profile {MODELS[model]}", columns)
     ax.set(xlabel=RADIUS, ylabel=r"polymer fraction $\phi$")
     ax.set_ylim(bottom=0.0)
     style.steps(fig, ax, times, colours, TIME)

@@ -8,6 +8,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from gelpump.figures import style
+from gelpump.figures.style import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,12 +56,23 @@ def draw(bead: "xr.Dataset", time: float) -> Figure:
         top, scale, [left, right], aspect=18, label=r"polymer fraction $\phi$"
     )
 
+    for panel, radii, fractions in (("a", r_0, phi_00), ("b", r, phi)):
+        told = {
+            "ring [1]": np.arange(1, RINGS + 1),
+            "r_inner [R_dry]": radii[:-1],
+            "r_outer [R_dry]": radii[1:],
+            Quantity.POLYMER: fractions,
+        }
+        style.tell(fig, panel, "material rings", told)
+
     columns = bottom.subplots(1, 3, width_ratios=(1.0, 1.0, 1.15))
     for ax, (name, (ring, wedges)) in zip(columns, ELEMENTS.items(), strict=False):
         pair = slice(ring, ring + 2)
         ratio = phi[ring] / phi_00[ring]
         colour = scale.to_rgba(phi[ring])
-        _element(ax, r_0[pair], r[pair], ratio, wedges, colour)
+        strains = _element(ax, r_0[pair], r[pair], ratio, wedges, colour)
+        told = {"ring [1]": ring + 1, "phi/phi_00 [1]": ratio} | strains
+        style.tell(fig, "c", f"element {name}", told)
         ax.set_title(f"element {name}", pad=4)
     limit = max(abs(bound) for ax in columns[:2] for bound in (*ax.get_xlim(), *ax.get_ylim()))
     for ax in columns[:2]:
@@ -107,6 +119,7 @@ def _element(ax, r_0, r, ratio, wedges, colour):
     """One element in its three states, and its strains.
 
     With e = 1 - r_0/r along the circle, eps_tt = e - [1 - ratio^(1/3)], and eps has no trace.
+    Returns the deviatoric strains.
     """
     shapes = {
         "reference": _centred(_outline(*r_0, wedges)),
@@ -124,6 +137,7 @@ def _element(ax, r_0, r, ratio, wedges, colour):
         rf"$\epsilon_{{rr}}={-2 * eps:.3f}$, $\epsilon_{{\theta\theta}}={eps:.3f}$",
         fontsize=8,
     )
+    return {"epsilon_rr [1]": -2 * eps, "epsilon_tt [1]": eps}
 
 
 def _centred(outline):

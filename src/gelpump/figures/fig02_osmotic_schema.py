@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from gelpump.figures import style
+from gelpump.figures.style import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,6 +41,14 @@ def draw(material: "xr.Dataset", temperatures: Sequence[float]) -> Figure:
             axes.plot(phi, pressure[T], color=colour)
         axes.plot(swollen, 0.0, "o", color=colours[cold], zorder=4)
         axes.plot(dry, 0.0, "o", color=colours[hot], zorder=4)
+    for name, T, fractions, Pi in (
+        *(("osmotic pressure", T, phi, pressure[T]) for T in colours),
+        ("way of a gel that is heated", hot, path, way),
+        ("equilibrium", cold, swollen, 0.0),
+        ("equilibrium", hot, dry, 0.0),
+    ):
+        columns = {Quantity.TEMPERATURE: T, Quantity.POLYMER: fractions, Quantity.PRESSURE: Pi}
+        style.tell(fig, "a", name, columns)
     close.annotate("", (swollen, jump), (swollen, 0.0), arrowprops=ARROW)
     for share in (0.3, 0.7, 0.93):  # arrow heads along the way, at these shares of its length
         i = int(np.searchsorted(path, swollen + share * (dry - swollen)))

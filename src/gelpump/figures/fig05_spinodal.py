@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from gelpump.figures import style
+from gelpump.figures.style import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,6 +33,7 @@ def draw(
     fig = style.figure(height=3.2)
     ax = fig.subplots()
     _plane(ax, material, beads, cases, span)
+    _tell(fig, material, beads, cases)
     top = 1.12 * max(float(bead.polymer_fraction.max()) for bead in beads.values())
     ax.set(ylim=(0.0, top), xlabel="temperature $T$ (K)", ylabel=r"polymer fraction $\phi$")
     T, phi = _special_points(material)
@@ -46,6 +48,37 @@ def draw(
     handles, labels = ax.get_legend_handles_labels()
     fig.legend(handles, labels, loc="outside upper center", ncols=4)
     return fig
+
+
+def _tell(fig, material, beads, cases):
+    """The equilibrium curve, the spinodal, and the path of each bead's mean."""
+    phi = material.polymer_fraction.values
+    stable = material.equilibrium_is_stable.values.astype(bool)
+    T = material.temperature_equilibrium.values
+    curves = [
+        ("stable equilibria", T[stable], phi[stable]),
+        ("unstable equilibria", T[~stable], phi[~stable]),
+        ("spinodal", material.temperature_spinodal.values, phi),
+    ]
+    for name, case in cases.items():
+        before, after = _jump(case)
+        start, mean = float(beads[name].polymer_fraction[0, 0]), beads[name].radius.values ** -3
+        path = np.r_[before, np.full(len(mean), after)], np.r_[start, mean]
+        curves.append((f"bead {name}: mean", *path))
+        met = _met(beads[name])
+        curves.append((f"bead {name}: range met", [after, after], [met.min(), met.max()]))
+        if "stopped_t" in beads[name].attrs:
+            stopped = beads[name].attrs["stopped_polymer_fraction"]
+            curves.append((f"bead {name}: phases separate", after, stopped))
+    for name, temperatures, fractions in curves:
+        columns = {Quantity.TEMPERATURE: temperatures, Quantity.POLYMER: fractions}
+        style.tell(fig, "a", name, columns)
+
+
+def _met(bead):
+    """Every polymer fraction that is met anywhere in a bead, the surface at t = 0 excepted."""
+    surface = bead.surface_polymer_fraction.values[1:]
+    return np.concatenate([bead.polymer_fraction.values.ravel(), surface])
 
 
 def _special_points(material):
@@ -93,8 +126,7 @@ def _trajectory(ax, bead, case, rank):
     """One bead's path; paths coincide in part, so the first is the thinnest and lies on top."""
     before, after = _jump(case)
     start = float(bead.polymer_fraction[0, 0])
-    met = bead.polymer_fraction.values.ravel(), bead.surface_polymer_fraction.values[1:]
-    met = np.concatenate(met)
+    met = _met(bead)
     mean = bead.radius.values**-3
     look = {"color": COLOURS[rank], "zorder": 3 - 0.2 * rank}
     band = look | {"alpha": 0.35, "linewidth": 6, "solid_capstyle": "butt"}

@@ -45,6 +45,7 @@ def draw(pulse: "xr.Dataset") -> Figure:
     scale = ScalarMappable(Normalize(1.0, float(pulse.Phi_inf)))
 
     fig = style.figure(height=3.1)
+    tube_section.tell(fig, "a", pulse, end)
     ax = fig.subplots()
     _lumen(ax, Z, inner, Phi1, depth, scale)
     _end(ax, end, inner[-1], outer[-1], depth, scale.to_rgba(Phi1[-1]))

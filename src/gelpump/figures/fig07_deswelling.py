@@ -8,6 +8,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 from gelpump.figures import style
+from gelpump.figures.style import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,6 +29,12 @@ def draw(
     fig = style.figure(height=2.75)
     left, right = fig.subplots(1, 2, width_ratios=(1.0, 1.05))
     _map(left, times)
+    columns = {
+        "M [1]": times.M.values,
+        "Pi_ratio [1]": times.Pi_ratio.values[:, np.newaxis],
+        "tau_99 [mu_l L^2/(k Pi_00)]": times.tau99.transpose("Pi_ratio", "M"),
+    }
+    style.tell(fig, "a", f"time to deswell at ell = {float(times.map_ell):g}", columns)
     _courses(fig, right, curves, published)
     style.panel_label(left, "a")
     style.panel_label(right, "b")
@@ -63,7 +70,10 @@ def _courses(fig, ax, curves, published):
     ells = curves.ell.values
     colours = dict(zip(ells, style.ell_colours(ells), strict=True))
     for ell, colour in colours.items():
-        ax.plot(MILLI * curves.tau, curves.Phi1.sel(ell=ell), color=colour, clip_on=False)
+        Phi1 = curves.Phi1.sel(ell=ell)
+        ax.plot(MILLI * curves.tau, Phi1, color=colour, clip_on=False)
+        columns = {Quantity.ELL: ell, Quantity.TAU: curves.tau, Quantity.PHI: Phi1}
+        style.tell(fig, "b", "course", columns)
     Phi_inf = float(curves.Phi1_reswelling.isel(ell=0, tau=0))  # where re-swelling starts
     end = MILLI * float(curves.tau[-1])
     ax.axhline(Phi_inf, color=style.GREY, linestyle="--", linewidth=0.8)
@@ -75,6 +85,11 @@ def _courses(fig, ax, curves, published):
         zorder=5,
         **style.PUBLISHED_MARKER,
     )
+    columns = {
+        Quantity.TAU: [tau for tau, _ in published],
+        Quantity.PHI: [Phi1 for _, Phi1 in published],
+    }
+    style.tell(fig, "b", "course published", columns)
     ax.set(xlim=(0.0, end), ylim=(1.0, 1.0 + 1.1 * (Phi_inf - 1.0)))
     ax.set(xlabel=rf"time $\tau$ ($10^{{-3}}\,{TIME_UNIT}$)", ylabel=r"polymer fraction $\Phi_1$")
     ax.legend(loc="lower right", handlelength=0.8)

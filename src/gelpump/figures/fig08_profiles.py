@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from gelpump.figures import style, tube_section
+from gelpump.figures.style import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,6 +29,7 @@ def draw(pulse: "xr.Dataset", published: Sequence[float]) -> Figure:
     for rank, (ax, label) in enumerate(zip(axes, "abcdefgh", strict=False)):
         now = pulse.isel(tau=rank)
         mesh = _section(ax, now, end)
+        tube_section.tell(fig, label, now, end)
         if rank < len(published):
             ax.plot(
                 published[rank],
@@ -37,6 +39,8 @@ def draw(pulse: "xr.Dataset", published: Sequence[float]) -> Figure:
                 label="published front",
                 **style.PUBLISHED_MARKER,
             )
+            columns = {Quantity.TAU: now.tau, Quantity.AXIAL: published[rank]}
+            style.tell(fig, label, "front Z_C published", columns)
         style.panel_label(ax, label)
         ax.set_title(rf"$\tau={float(now.tau):g}$")
     axes[0].set(xlim=(0.0, end), ylim=(-1.15, 1.15), yticks=[-1.0, 0.0, 1.0])

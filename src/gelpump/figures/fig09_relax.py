@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from gelpump.figures import style
+from gelpump.figures.style import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,6 +40,27 @@ def draw(
         fig, left, pulse.sel(tau=fit.fit_tau, method="nearest"), fit, ells, published_profiles
     )
     _sharpness(right, fit, ells, published_sharpness)
+    _tell(fig, pulse.sel(tau=fit.fit_tau, method="nearest"), fit, ells)
+    for name, panel, columns in (
+        (
+            "profile at the front published",
+            "a",
+            {
+                Quantity.ELL: published_profiles["ell"][: len(published_profiles["Phi1"])],
+                Quantity.AHEAD: 0.0,
+                Quantity.PHI: published_profiles["Phi1"],
+            },
+        ),
+        (
+            "sharpness published",
+            "b",
+            {
+                Quantity.THICKNESS: 1 - np.array(ells[: len(published_sharpness)]),
+                Quantity.SHARPNESS: published_sharpness,
+            },
+        ),
+    ):
+        style.tell(fig, panel, name, columns)
     style.panel_label(left, "a")
     style.panel_label(right, "b")
     return fig
@@ -68,12 +90,40 @@ def _tubes(ax, pulse, fit, ells, Phi_inf):
     x = np.linspace(-REACH, REACH, 801)
     for rank, (ell, colour) in enumerate(zip(ells, style.ell_colours(ells), strict=True)):
         tube = pulse.sel(ell=ell, method="nearest")
-        ahead = (tube.Z - tube.Z_C).values
-        near = np.abs(ahead) < 1.2 * REACH
-        ax.plot(ahead[near], tube.Phi1.values[near], color=colour, linewidth=1.2)
+        ax.plot(*_profile(tube), color=colour, linewidth=1.2)
         A = float(fit.A.sel(ell=ell, method="nearest"))
-        tanh = Phi_inf - (Phi_inf - 1) / 2 * (1 + np.tanh(A * x))
-        ax.plot(x, tanh, color=colour, label="tanh fit" if rank == 0 else None, **TANH)
+        ax.plot(
+            x, _tanh(A, Phi_inf, x), color=colour, label="tanh fit" if rank == 0 else None, **TANH
+        )
+
+
+def _profile(tube):
+    """Z - Z_C and Phi1 near the front."""
+    ahead = (tube.Z - tube.Z_C).values
+    near = np.abs(ahead) < 1.2 * REACH
+    return ahead[near], tube.Phi1.values[near]
+
+
+def _tanh(A, Phi_inf, x):
+    return Phi_inf - (Phi_inf - 1) / 2 * (1 + np.tanh(A * x))
+
+
+def _tell(fig, pulse, fit, ells):
+    Phi_inf = float(pulse.Phi_inf.max())
+    for ell in ells:
+        x, Phi1 = _profile(pulse.sel(ell=ell, method="nearest"))
+        tanh = _tanh(float(fit.A.sel(ell=ell, method="nearest")), Phi_inf, x)
+        columns = {Quantity.ELL: ell, Quantity.AHEAD: x, Quantity.PHI: Phi1}
+        style.tell(fig, "a", "profile and its tanh fit", columns | {"tanh_fit [phi_00]": tanh})
+    thickness = 1 - fit.ell.values
+    power_law = float(fit.prefactor) * thickness ** -float(fit.exponent)
+    columns = {
+        Quantity.THICKNESS: thickness,
+        Quantity.SHARPNESS: fit.A,
+        "A_uncertainty [1/L]": fit.A_uncertainty,
+        "power_law [1/L]": power_law,
+    }
+    style.tell(fig, "b", "sharpness and its power law", columns)
 
 
 def _sharpness(ax, fit, ells, published):

@@ -28,9 +28,9 @@ def draw(views: Sequence["xr.Dataset"], wall_time: float, lumen_time: float) -> 
     start, end = front - BEHIND, front + AHEAD
     axes[0].set(xlim=(start, end), ylim=(0.0, 1.1))
     for ax, label, view in zip(axes, "abcdefgh", views, strict=False):
-        mesh, line = tube_flow.section(ax, view, end)
-        tube_flow.wall_arrows(ax, view, wall_time, SPACING, DEPTHS)
-        tube_flow.lumen_arrows(ax, view, lumen_time, SPACING)
+        mesh, line = tube_flow.section(ax, view, end, panel=label)
+        tube_flow.wall_arrows(ax, view, wall_time, SPACING, DEPTHS, panel=label)
+        tube_flow.lumen_arrows(ax, view, lumen_time, SPACING, panel=label)
         style.panel_label(ax, label)
         ax.set(ylabel=tube_section.RADIAL, aspect=eps)
         ax.set_title(rf"$\ell={float(view.ell):g}$, $\tau={float(view.tau):g}$")

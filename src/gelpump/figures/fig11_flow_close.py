@@ -34,8 +34,8 @@ def draw(
         height = outer - inner + 2 * margin
         half = SHAPE * height * eps / 2
         ax.set(xlim=(front - half, front + half), ylim=(inner - margin, outer + margin), aspect=eps)
-        mesh, _ = tube_flow.section(ax, view, front + 2 * half)
-        tube_flow.wall_arrows(ax, view, time, 2 * half / ARROWS, DEPTHS)
+        mesh, _ = tube_flow.section(ax, view, front + 2 * half, panel=label)
+        tube_flow.wall_arrows(ax, view, time, 2 * half / ARROWS, DEPTHS, panel=label)
         style.panel_label(ax, label)
         ax.set_title(rf"$\ell={float(view.ell):g}$, $\Delta\tau=${tube_flow.scale(time)}")
         here = budget.sel(ell=view.ell, tau=view.tau, method="nearest")

@@ -7,12 +7,15 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from gelpump.figures import style
+from gelpump.figures.style import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
 
 WITHOUT = r"$\int_0^Z\Phi_1\mathcal{D}(\Phi_0-\Phi_1)\,\mathrm{d}Z$"
 PREFACTOR = r"$8/\varepsilon^2(1-\ell)^2$"
+MAXIMUM = "V_max_without_prefactor [L]"
+WITH_PREFACTOR = "V_max [k Pi_00/(mu_l L)]"
 GUIDE = {"color": style.GREY, "linewidth": 0.9, "linestyle": ":"}
 
 
@@ -40,7 +43,10 @@ def _pulses(fig, ax, pulse, published):
     times = pulse.tau.values
     colours = style.shades(style.LATER, len(times))
     for now, colour in zip(times, colours, strict=True):
-        ax.plot(pulse.Z, pulse.V_plotted.sel(tau=now), color=colour)
+        V = pulse.V_plotted.sel(tau=now)
+        ax.plot(pulse.Z, V, color=colour)
+        columns = {Quantity.TAU: now, Quantity.AXIAL: pulse.Z, "V_without_prefactor [L]": V}
+        style.tell(ax, "a", "axial velocity", columns)
     end = float(pulse.Z[-1])
     marks = [(Z_C, height) for Z_C in pulse.Z_C.values for height in published["peak"]]
     marks += [(end, height) for height in published["far"]]
@@ -52,6 +58,11 @@ def _pulses(fig, ax, pulse, published):
         zorder=5,
         **style.PUBLISHED_MARKER,
     )
+    columns = {
+        Quantity.AXIAL: [mark[0] for mark in marks],
+        "V_without_prefactor [L]": [mark[1] for mark in marks],
+    }
+    style.tell(ax, "a", "axial velocity published", columns)
     ax.set(xlim=(0.0, end), ylim=(0.0, 1.12 * float(pulse.V_plotted.max())))
     ax.set(xlabel="axial position $Z=z/L$", ylabel=f"{WITHOUT}\n(in $L$)")
     ax.set_title(rf"$A={float(pulse.drawn_A):g}/L$, without the prefactor {PREFACTOR}")
@@ -62,6 +73,7 @@ def _pulses(fig, ax, pulse, published):
 def _maximum(ax, pulse, published):
     A = pulse.A.values
     ax.plot(A, pulse.V_max_plotted, color=style.LENS, label="tanh form")
+    style.tell(ax, "b", "tanh form", {Quantity.SHARPNESS: A, MAXIMUM: pulse.V_max_plotted})
     for product in published["product"]:
         ax.plot(
             published["A"],
@@ -71,6 +83,8 @@ def _maximum(ax, pulse, published):
             clip_on=False,
             **style.PUBLISHED_MARKER,
         )
+        drawn = {Quantity.SHARPNESS: published["A"], MAXIMUM: product / np.array(published["A"])}
+        style.tell(ax, "b", "published", drawn)
     _guide(ax, A, 2.2 * float(pulse.V_max_plotted[0] * A[0]), -1)
     ax.set(xscale="log", yscale="log", xlim=(A[0], A[-1]))
     ax.set(xlabel="sharpness $A$ (in $1/L$)", ylabel="maximum without\nprefactor (in $L$)")
@@ -89,6 +103,11 @@ def _with_prefactor(ax, pulse):
         color=style.DRYING,
         label="solved tubes",
     )
+    for name, thick, V in (
+        ("tanh form", thickness[some], pulse.V_max.values[some]),
+        ("solved tubes", 1 - pulse.ell, pulse.V_front_printed.isel(tau=-1)),
+    ):
+        style.tell(ax, "c", name, {Quantity.THICKNESS: thick, WITH_PREFACTOR: V})
     bounds = np.array([0.9 * min(thickness.min(), float((1 - pulse.ell).min())), 1.0])
     _guide(ax, bounds, 2.2 * float(pulse.V_max[some][0] * thickness[some][0]), -1)
     ax.set(xscale="log", yscale="log", xlim=bounds, xlabel=r"$1-\ell$")

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from gelpump.figures import style
+from gelpump.figures.style import Quantity
 
 DEPTH = 1.12  # how far below the lowest minimum the panels reach, in its depth
 HEIGHT = 1.7  # and how far above zero: further up the curves only rise
@@ -31,6 +32,7 @@ def draw(materials: Mapping) -> Figure:
                 each.plot(gel.polymer_fraction, now, color=colour)
                 phi = _stable(gel, T)
                 each.plot(phi, 0.0 * phi, "o", markersize=3.2, color=colour, zorder=4)
+        _tell(fig, label, name, gel)
         ax.set(xlim=(0.0, 1.0), ylim=(-DEPTH * depth, HEIGHT * depth))
         ax.set(xlabel=r"polymer fraction $\phi$")
         style.panel_label(ax, label)
@@ -39,6 +41,17 @@ def draw(materials: Mapping) -> Figure:
     axes[0].set_ylabel(r"osmotic pressure $\Pi\,\Omega_f/k_BT$")
     style.steps(fig, axes, gel.temperature.values, colours, "temperature $T$ (K)")
     return fig
+
+
+def _tell(fig, panel, name, gel):
+    for T in gel.temperature.values:
+        phi = _stable(gel, T)
+        for what, fractions, Pi in (
+            ("osmotic pressure", gel.polymer_fraction, gel.osmotic_pressure.sel(temperature=T)),
+            ("stable equilibria", phi, 0.0 * phi),
+        ):
+            columns = {Quantity.TEMPERATURE: T, Quantity.POLYMER: fractions, Quantity.PRESSURE: Pi}
+            style.tell(fig, panel, f"{what} of {name}", columns)
 
 
 def _stable(gel, temperature):

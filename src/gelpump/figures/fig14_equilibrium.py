@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from gelpump.figures import style
+from gelpump.figures.style import Quantity
 
 RANGE = (300.0, 312.0)  # K
 NARROW = 0.2  # K: a hysteresis narrower than this needs an inset to be seen
@@ -23,6 +24,7 @@ def draw(materials: Mapping, published: Mapping[str, Sequence[float]]) -> Figure
     axes = np.atleast_1d(fig.subplots(1, len(materials), sharey=True))
     for ax, label, (name, gel) in zip(axes, "abcd", materials.items(), strict=False):
         _curve(ax, gel)
+        _tell(fig, label, name, gel, published.get(name, []))
         for temperature in published.get(name, []):
             ax.plot(
                 temperature,
@@ -45,6 +47,19 @@ def draw(materials: Mapping, published: Mapping[str, Sequence[float]]) -> Figure
     unique = dict(zip(labels, handles, strict=True))
     fig.legend(unique.values(), unique.keys(), loc="outside upper center", ncols=4)
     return fig
+
+
+def _tell(fig, panel, name, gel, published):
+    T, phi = gel.temperature_equilibrium.values, gel.polymer_fraction.values
+    stable = gel.equilibrium_is_stable.values.astype(bool)
+    for what, temperatures, fractions in (
+        ("stable equilibria", T[stable], phi[stable]),
+        ("unstable equilibria", T[~stable], phi[~stable]),
+        ("folds", *_folds(gel)),
+        ("T_C published", published, 0.0),
+    ):
+        columns = {Quantity.TEMPERATURE: temperatures, Quantity.POLYMER: fractions}
+        style.tell(fig, panel, f"{what} of {name}", columns)
 
 
 def _curve(ax, gel):

@@ -6,10 +6,12 @@ map throughout, light when swollen, dark when dry.
 """
 
 import logging
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import contextmanager
+from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import matplotlib
 import numpy as np
@@ -100,11 +102,58 @@ def styled():
         yield
 
 
-def figure(height: float, width: float = WIDTH) -> Figure:
+class Quantity(StrEnum):
+    """What figures draw, with its unit: headings of their CSV files."""
+
+    TEMPERATURE = "temperature [K]"
+    POLYMER = "polymer_fraction [1]"
+    PRESSURE = "osmotic_pressure [k_B T/Omega_f]"
+    BEAD_TIME = "t [t_BMJ]"
+    BEAD_RADIUS = "r [R_dry]"
+    TAU = "tau [mu_l L^2/(k Pi_00)]"
+    ELL = "ell [1]"
+    THICKNESS = "one_minus_ell [1]"
+    AXIAL = "Z [L]"
+    RADIAL = "R [a_1]"
+    INNER = "B_0 [a_1]"
+    OUTER = "B_1 [a_1]"
+    AHEAD = "Z-Z_C [L]"
+    PHI = "Phi [phi_00]"
+    SHARPNESS = "A [1/L]"
+
+
+class Series(NamedTuple):
+    """Numbers that are drawn: ``columns`` of equal length, each named with its unit, "Z [L]"."""
+
+    panel: str
+    name: str
+    columns: Mapping[str, Sequence[float]]
+
+
+class ToldFigure(Figure):
+    """A figure that knows its numbers, for who wants to draw them otherwise."""
+
+    def __init__(self, *args, **options):
+        super().__init__(*args, **options)
+        self.series: list[Series] = []
+
+
+def figure(height: float, width: float = WIDTH) -> ToldFigure:
     """An empty figure of the given size in inches, laid out without overlaps."""
-    fig = Figure(figsize=(width, height), layout="constrained")
+    fig = ToldFigure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(fig)
     return fig
+
+
+def tell(where, panel: str, name: str, columns: Mapping[str, Sequence[float]]) -> None:
+    """Say which numbers are drawn in ``where``, axes or a figure: they come into its CSV file.
+
+    A column is broadcast to the shape of the largest; ``name`` tells series of a panel apart, and
+    has no comma.
+    """
+    arrays = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in columns.values()))
+    flat = dict(zip(columns, map(np.ravel, arrays), strict=True))
+    where.get_figure(root=True).series.append(Series(panel, name, flat))
 
 
 def panel_label(axes, label: str) -> None:
@@ -156,7 +205,8 @@ def steps(
 def save(fig: Figure, paths: Iterable[str | Path], provenance: "Provenance | None" = None) -> None:
     """Write ``fig`` to each path in the format of its suffix; a file is whole or not there.
 
-    ``provenance`` is put into the files' metadata.
+    ``provenance`` is put into the files' metadata.  A path to a CSV file gets the numbers that
+    were told of.
 
     The layout is settled once, so that all formats show the same and none waits for it again.
     """
@@ -164,6 +214,40 @@ def save(fig: Figure, paths: Iterable[str | Path], provenance: "Provenance | Non
     fig.set_layout_engine("none")
     for path in map(Path, paths):
         suffix = path.suffix.lstrip(".")
+        if suffix == "csv":
+            with whole(path) as partial:
+                partial.write_text(csv(fig.series, path.stem, provenance), "utf-8", newline="\n")
+            continue
         made_from = {PROVENANCE[suffix]: provenance.text()} if provenance else {}
         with whole(path) as partial:
             fig.savefig(partial, format=suffix, metadata=METADATA[suffix] | made_from)
+
+
+def csv(series: Sequence[Series], name: str, provenance: "Provenance | None" = None) -> str:
+    """The numbers of figure ``name`` as one table: a row is a point of one series of one panel.
+
+    A quantity has one column, empty in the rows of series without it.  Lines before the table begin
+    with #: what there is, panel by panel, and what it was made from.
+    """
+    columns = list(dict.fromkeys(column for each in series for column in each.columns))
+    rows = Counter()
+    for panel, what, numbers in series:
+        rows[panel, what, ", ".join(numbers)] += len(next(iter(numbers.values())))
+    lines = [
+        f"# {name}: the numbers that are drawn, one row a point; [1] is without a dimension",
+        *(
+            f"# panel {panel}, {what}; {count} rows: {quantities}"
+            for (panel, what, quantities), count in rows.items()
+        ),
+        *([f"# made from {provenance.text()}"] if provenance else []),
+        ",".join(["panel", "series", *columns]),
+        "",
+    ]
+    return "\n".join(lines) + "".join(_rows(each, columns) for each in series)
+
+
+def _rows(series, columns):
+    cells = ("%.8g" if column in series.columns else "" for column in columns)
+    row = ",".join([series.panel, series.name.replace("%", "%%"), *cells]) + "\n"
+    values = np.stack([series.columns[c] for c in columns if c in series.columns], axis=1)
+    return (row * len(values)) % tuple(values.ravel().tolist())

@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.path import Path
 
 from gelpump.figures import style, tube_section
+from gelpump.figures.style import Quantity
 
 LEAST = 0.08  # of the longest arrow
 HEAD = {"headwidth": 4.5, "headlength": 5.0, "headaxislength": 4.6, "minlength": 0.1}
@@ -31,31 +32,38 @@ ARROW_MARK = Path(
 )  # of the legend
 
 
-def section(ax, view, end):
+def section(ax, view, end, *, panel):
     """The wall's upper section in colour, its swollen outline and the front."""
     Z, radius = tube_section.extended(view.Z.values, view.radius.values, end)
     _, polymer_fraction = tube_section.extended(view.Z.values, view.polymer_fraction.values, end)
     for swollen in (float(view.ell), 1.0):
         ax.plot([0.0, end], [swollen] * 2, **tube_section.SWOLLEN)
     mesh = tube_section.wall(ax, Z, radius, polymer_fraction, polymer_fraction.max())
+    shown = np.abs(Z - np.mean(ax.get_xlim())) <= np.ptp(ax.get_xlim()) / 2
+    columns = {
+        Quantity.AXIAL: Z[shown, np.newaxis],
+        Quantity.RADIAL: radius[shown],
+        Quantity.PHI: polymer_fraction[shown],
+    }
+    style.tell(ax, panel, f"wall at ell = {float(view.ell):g}", columns)
     front = ax.axvline(float(view.Z_C), label="front $Z_C$", **tube_section.FRONT)
     return mesh, front
 
 
-def wall_arrows(ax, view, time, spacing, depths):
+def wall_arrows(ax, view, time, spacing, depths, *, panel):
     """Interstitial flow at some depths of the wall, from its inner edge, 0, to its outer, 1."""
     here = view.isel(R=[round(depth * (view.sizes["R"] - 1)) for depth in depths])
-    _arrows(ax, here, ("radius", "u_z", "u_r"), time, spacing, WALL_ARROW)
+    _arrows(ax, here, ("radius", "u_z", "u_r"), time, spacing, WALL_ARROW, panel)
 
 
-def lumen_arrows(ax, view, time, spacing, heights=(0.35, 0.75)):
+def lumen_arrows(ax, view, time, spacing, heights=(0.35, 0.75), *, panel):
     """Flow in the lumen at some heights, from its axis, 0, to the wall, 1."""
     across = [round(height * (view.sizes["R_lumen"] - 1)) for height in heights]
     here = view.isel(R_lumen=across)
-    _arrows(ax, here, ("lumen_radius", "lumen_u_z", "lumen_u_r"), time, spacing, LUMEN_ARROW)
+    _arrows(ax, here, ("lumen_radius", "lumen_u_z", "lumen_u_r"), time, spacing, LUMEN_ARROW, panel)
 
 
-def _arrows(ax, view, names, time, spacing, look):
+def _arrows(ax, view, names, time, spacing, look, panel):
     """Arrows with the tails evenly spaced along the tube, at the radius and of the two velocities
     that names tell."""
     front, limits = float(view.Z_C), ax.get_xlim()
@@ -67,6 +75,14 @@ def _arrows(ax, view, names, time, spacing, look):
     drawn = length > LEAST * length.max()
     ways = time * u_z[drawn], time * u_r[drawn]
     ax.quiver(Z[drawn], R[drawn], *ways, **ARROWS, **HEAD, **look)
+    place = "lumen" if names[0].startswith("lumen") else "wall"
+    columns = {
+        Quantity.AXIAL: Z[drawn],
+        Quantity.RADIAL: R[drawn],
+        "way_Z [L]": ways[0],
+        "way_R [a_1]": ways[1],
+    }
+    style.tell(ax, panel, f"flow in the {place}: way in a time of {time:g}", columns)
 
 
 def _sampled(view, name, places):

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.colors import Normalize
 
 from gelpump.figures import style
+from gelpump.figures.style import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,6 +28,15 @@ def shape(pulse: "xr.Dataset", end: float):
     Z, Phi1 = extended(pulse.Z.values, pulse.Phi1.values, end)
     outer = Phi1 ** (-1 / 3)
     return Z, float(pulse.ell) * outer, outer, Phi1
+
+
+def tell(fig, panel: str, pulse: "xr.Dataset", end: float) -> None:
+    """The numbers of ``shape`` and the place of the front."""
+    Z, inner, outer, Phi1 = shape(pulse, end)
+    time = {Quantity.ELL: pulse.ell, Quantity.TAU: pulse.tau}
+    columns = {Quantity.AXIAL: Z, Quantity.INNER: inner, Quantity.OUTER: outer, Quantity.PHI: Phi1}
+    style.tell(fig, panel, "wall", time | columns)
+    style.tell(fig, panel, "front Z_C", time | {Quantity.AXIAL: pulse.Z_C})
 
 
 def extended(Z, values, end):

@@ -183,3 +183,23 @@ def test_every_key_has_a_description_and_unknown_ones_are_refused():
     for path, rule in objects:
         if rule.get("type") == "object":
             assert "additionalProperties" in rule, path
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--configfile", "BAD"],
+        ["--configfile=BAD"],
+        ["--cores", "2", "all", "--configfiles", "GOOD", "BAD", "--config", "a=1"],
+        ["--config", "a=1", "--configfile", "BAD", "-n"],
+        ["--configfile", "GOOD", "--configfile", "BAD"],
+    ],
+)
+def test_a_command_line_is_refused_for_any_of_its_files(tmp_path, monkeypatch, arguments):
+    (tmp_path / "BAD").write_text("__use_yte__: true\n")
+    (tmp_path / "GOOD").write_text("tube: {Le: 5.0}\n")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit, match="can run code"):
+        checked.require_plain_arguments(arguments)
+    checked.require_plain_arguments([each.replace("BAD", "GOOD") for each in arguments])
+    checked.require_plain_arguments(["--cores", "2", "fig14_equilibrium"])

@@ -5,7 +5,8 @@ A refusal names the key as a path (``beads.drying.gel``), the value given and wh
 
 import sys
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from argparse import ArgumentParser
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,22 @@ def require_plain(path: str | Path) -> None:
         raise ConfigError(f"{path}: cannot be read: {problem}") from problem
     if root is not None:
         _refuse(f"{path}: {problem}" for problem in _node_problems(root))
+
+
+def require_plain_arguments(arguments: Sequence[str] | None = None) -> None:
+    """Refuse the configuration files of a command line, by default that of this process.
+
+    profiles/default calls this: Snakemake reads a profile before any configuration, and those
+    before the Snakefile, when their templates have run.  SystemExit with the reason.
+    """
+    parser = ArgumentParser(add_help=False)
+    parser.add_argument("--configfile", "--configfiles", nargs="*", action="extend", default=[])
+    parser.add_argument("--config", nargs="*")
+    for file in parser.parse_known_args(arguments)[0].configfile:
+        try:
+            require_plain(file)
+        except ConfigError as refusal:
+            raise SystemExit(str(refusal)) from None
 
 
 def _node_problems(root) -> Iterator[str]:

@@ -225,6 +225,18 @@ def test_a_python_object_in_a_config_is_not_made(clone):
     assert not (clone.path / "ran").exists()
 
 
+def test_code_in_a_template_is_not_run(clone):
+    code = "__import__('pathlib').Path('ran').touch()"
+    (clone.path / "bad.yaml").write_text(f"__use_yte__: true\ntube: ?{code}\n")
+    result = clone.snakemake("--dry-run", config="bad.yaml")
+    assert result.returncode == 1
+    assert "templates (__use_yte__) can run code and are not allowed" in said(result)
+    assert "Traceback" not in said(result)
+    assert not (clone.path / "ran").exists()
+    clone.snakemake("--dry-run", "--workflow-profile", "none", config="bad.yaml")
+    assert (clone.path / "ran").exists(), "Snakemake has changed: is the default profile needed?"
+
+
 def test_the_default_profile_is_loaded(clone):
     result = clone.snakemake("--dry-run", "fig14_equilibrium")
     assert "Using workflow specific profile profiles/default" in said(result)

@@ -311,7 +311,7 @@ def _lumen_flow(lumen, refinement) -> Iterator[Finding]:
         "sign of the power of 1 - ell that the height of the pulse follows, from eqn:lumen "
         "(text: grows with ell; figure: falls)",
         float(np.sign(height)) if abs(height) > doubt else 0.0,
-        0.0,
+        doubt,
         "data/lumen_pulse.nc: V_front_printed",
         measure=height,
         measured="the power:",

@@ -1,4 +1,4 @@
-"""python -m benchmarks measure FILE.json  |  python -m benchmarks page FILE.json FOLDER."""
+"""python -m benchmarks measure FILE.json  |  page FILE.json FOLDER  |  profile."""
 
 import json
 import sys
@@ -6,13 +6,14 @@ from pathlib import Path
 
 
 def main(arguments: list[str]) -> int:
-    """Measure, or make the page of what was measured."""
+    """Measure, make the page of what was measured, or show where a rebuild spends its time."""
     match arguments:
         case ["measure", file]:
-            from benchmarks import cost, growing
+            from benchmarks import cost, growing, profile
             from gelpump.text import write_json
 
             measured = {"machine": growing.machine(), "rebuild": growing.rebuild()}
+            measured["profile"] = profile.rebuild()
             measured["growth"] = [*growing.series(), growing.steps()]
             measured["cost"] = cost.measure()
             Path(file).parent.mkdir(parents=True, exist_ok=True)
@@ -21,6 +22,12 @@ def main(arguments: list[str]) -> int:
             from benchmarks import page
 
             page.write(json.loads(Path(file).read_text(encoding="utf-8")), Path(folder))
+        case ["profile"]:
+            from benchmarks import page, profile
+
+            measured = profile.rebuild()
+            print(page.spent_table(measured), page.imports_table(measured), sep="\n")
+            print(page.rules_table(measured), page.functions_table(measured), sep="\n")
         case _:
             print(__doc__)
             return 2

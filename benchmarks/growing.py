@@ -1,6 +1,5 @@
 """How cost and memory grow, and what a rebuild spends before and around its physics."""
 
-import csv
 import os
 import platform
 import subprocess
@@ -143,7 +142,7 @@ def steps() -> dict:
 
 
 def rebuild() -> dict:
-    """Start-up costs, Snakemake's own, and what the jobs of the last build took."""
+    """Start-up costs, and Snakemake's own."""
     start = {
         name: min(forked(lambda code=code: _python("-c", code))[0] for _ in range(3))
         for name, code in IMPORTS.items()
@@ -152,32 +151,11 @@ def rebuild() -> dict:
     def dry():
         _python("-m", "snakemake", "--cores", "1", "--dry-run", "--forceall", "all")
 
-    jobs = []
-    for file in sorted((PROJECT / "results/benchmarks").glob("*.tsv")):
-        with open(file, encoding="utf-8") as stream:
-            (row,) = list(csv.DictReader(stream, delimiter="\t"))[:1]
-        kind = "figures" if file.stem.startswith("fig") else file.stem.split("_")[0]
-        jobs.append(
-            {
-                "job": file.stem,
-                "kind": kind,
-                "seconds": _number(row["cpu_time"]),
-                "wall": _number(row["s"]),
-                "memory_mb": _number(row["max_rss"]),
-            }
-        )
     try:
         plan = forked(dry)[0]
     except ChildProcessError:  # the workflow does not parse: its message is in the log
         plan = None
-    return {"start": start, "plan": plan, "jobs": jobs}
-
-
-def _number(text: str) -> float:
-    try:
-        return max(float(text), 0.0)
-    except ValueError:
-        return 0.0
+    return {"start": start, "plan": plan}
 
 
 def _python(*arguments: str) -> None:

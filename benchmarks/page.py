@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from benchmarks import profile
 from benchmarks.cost import FAR, LEAST, MOST, OURS, SUNDIALS, TARGET, TEXTBOOK, concluded
 from gelpump.figures import style
 
@@ -117,31 +118,77 @@ def growth_table(series: Sequence[Mapping[str, Any]]) -> str:
     return table(head, rows)
 
 
-def rebuild_tables(rebuild: Mapping[str, Any]) -> str:
-    """Start-up, plan, and the jobs of the last build by kind."""
+def rebuild_tables(rebuild: Mapping[str, Any], profiled: Mapping[str, Any]) -> str:
+    """Start-up, plan, and where the seconds of a whole rebuild go."""
     start = rebuild["start"]
     bare = start["interpreter"]
     rows = [["interpreter", f"{bare:.2f}"]]
     rows += [[f"import {k}", f"{v - bare:.2f}"] for k, v in start.items() if k != "interpreter"]
     rows.append(["Snakemake: plan of the whole build", _number(rebuild["plan"])])
-    kinds: dict[str, list] = {}
-    for job in rebuild["jobs"]:
-        kinds.setdefault(job["kind"], []).append(job)
-    body = [
-        [
-            kind,
-            len(jobs),
-            f"{sum(j['seconds'] for j in jobs):.1f}",
-            f"{sum(j['wall'] for j in jobs):.1f}",
-            f"{max(j['memory_mb'] for j in jobs):.0f}",
-        ]
-        for kind, jobs in sorted(kinds.items(), key=lambda kv: -sum(j["wall"] for j in kv[1]))
+    return f"""{table(["before any physics", "CPU s"], rows)}
+{spent_table(profiled)}
+Imports by the package that a job waits for, with what that imports in turn:
+
+{imports_table(profiled)}
+The jobs, by rule:
+
+{rules_table(profiled)}"""
+
+
+def spent_table(profiled: Mapping[str, Any]) -> str:
+    """CPU seconds of a rebuild by what they were spent on and by group of jobs."""
+    groups = profiled["table"]
+    total = profiled["seconds"]
+    rows = []
+    for name in profile.ROWS:
+        spent = [counted.get(name, 0.0) for counted in groups.values()]
+        cells = [f"{value:.1f}" if value >= 0.05 else "" for value in spent]
+        rows.append([name, *cells, f"{sum(spent):.1f}", f"{sum(spent) / total:.0%}"])
+    sums = [sum(counted.values()) for counted in groups.values()]
+    rows.append(["**all**", *(f"{v:.1f}" for v in sums), f"**{total:.1f}**", ""])
+    return f"""
+Where {total:.0f} CPU seconds of a rebuild from nothing went: every process of
+`snakemake --cores 2 all` took a sample of itself each 4 ms of CPU time, which took another
+{profiled["sampling"]:.1f} s ({profiled["sampling"] / total:.0%}), not counted here.
+
+{table(["CPU s", *groups, "all", "share"], rows)}"""
+
+
+def imports_table(profiled: Mapping[str, Any]) -> str:
+    """Imports by package, the dearest first."""
+    rows = [
+        [package, number, f"{seconds:.1f}"]
+        for package, (number, seconds) in sorted(
+            profiled["imports"].items(), key=lambda item: -item[1][1]
+        )
+        if seconds >= 0.1
     ]
-    return (
-        table(["before any physics", "CPU s"], rows)
-        + "\nThe jobs of the last build, as Snakemake recorded them:\n\n"
-        + table(["jobs", "number", "CPU s", "wall s", "peak MB"], body)
-    )
+    return table(["package", "processes", "CPU s"], rows)
+
+
+def rules_table(profiled: Mapping[str, Any]) -> str:
+    """Jobs by rule, the dearest first; cheap ones together."""
+    rules = sorted(profiled["rules"].items(), key=lambda item: -item[1]["seconds"])
+    rows = [
+        [
+            rule,
+            spent["number"],
+            f"{spent['seconds']:.1f}",
+            f"{spent['wall']:.1f}",
+            f"{spent['memory_mb']:.0f}",
+        ]
+        for rule, spent in rules
+    ]
+    return table(["rule", "jobs", "CPU s", "wall s", "peak MB"], rows)
+
+
+def functions_table(profiled: Mapping[str, Any]) -> str:
+    """The functions of jobs that take most, with all that they call; imports excluded."""
+    rows = [
+        ["/".join(name.split("/")[-3:]), f"{seconds:.1f}"]
+        for name, seconds in profiled["functions"]
+    ]
+    return table(["function of a job, imports excluded", "CPU s with what it calls"], rows)
 
 
 def profile_table(profile: Sequence[Mapping[str, Any]]) -> str:
@@ -218,7 +265,7 @@ proportion to cells and tubes as long as that part leads.
 {growth_table(measured["growth"])}
 ## A rebuild
 
-{rebuild_tables(measured["rebuild"])}{levers}"""
+{rebuild_tables(measured["rebuild"], measured["profile"])}{levers}"""
 
 
 def draw(problems: Sequence[Mapping[str, Any]]):

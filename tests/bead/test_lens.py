@@ -107,6 +107,25 @@ def test_phases_separate_at_308_K(hht):
     assert float(coarse.radius[-1]) == pytest.approx(float(fine.radius[-1]), abs=1e-3)
 
 
+@pytest.mark.parametrize(("temperature", "phi"), [(308.0, 0.05), (308.0, 0.6), (304.0, 0.05)])
+def test_the_surface_is_free_of_stress_up_to_the_ends_of_its_interval(hht, temperature, phi):
+    """Next to a spinodal too, where the load hardly changes with phi_s any more."""
+    surface = lens.Surface.around(hht, temperature, phi)
+    lowest, highest = surface.load(surface.lower), surface.load(surface.upper)
+    share = np.concatenate([np.geomspace(1e-12, 0.5, 30), 1 - np.geomspace(1e-12, 0.5, 30)])
+    load = lowest + share * (highest - lowest)
+    load = load[load > 0.0]
+    found = surface.polymer_fraction(4.0 / load)
+    slope = hht.Omega * hht.diffusivity(found, temperature)  # d(load)/d(ln phi_s)
+    rounding = np.finfo(float).eps * (slope + np.abs(load) + hht.Omega)
+    assert np.all(np.abs(surface.load(found) - load) <= 8 * rounding)
+    assert np.all((surface.lower <= found) & (found <= surface.upper))
+    for outside in (highest * (1 + 1e-9), lowest - 1e-9 * abs(lowest)):
+        if outside > 0.0:
+            with pytest.raises(lens.PhaseSeparation):
+                surface.polymer_fraction(np.array([4.0 / outside]))
+
+
 def test_a_profile_that_reaches_the_spinodal_is_told_of(hht):
     shells = lens.Shells([8])
     surface = lens.Surface.around(hht, 308.0, 0.05)

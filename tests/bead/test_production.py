@@ -61,12 +61,12 @@ def fake_run(cells, tolerance, stop=None):
     return xr.Dataset(series, coords={"t": t}, attrs=attrs)
 
 
-def fake_meshes(run):
-    return lambda meshes, tolerance: [run(cells, tolerance) for cells in meshes]
+def fake_runs(run):
+    return lambda asked: [run(cells, common) for meshes, common in asked for cells in meshes]
 
 
 def test_refinement_estimates_the_true_error():
-    bead, refined = production.refined(fake_run, fake_meshes(fake_run), 100, 1e-6)
+    bead, refined = production.refined(fake_runs(fake_run), 100, 1e-6)
     assert bead.identical(fake_run(100, 1e-6))
     true_error = 100**-2.0 + 10e-6
     estimate = refined.radius_uncertainty.values
@@ -79,7 +79,7 @@ def test_runs_that_stop_are_compared_up_to_the_first_stop():
     def stopping(cells, tolerance):
         return fake_run(cells, tolerance, stop=0.6 + 1.0 / cells)
 
-    _, refined = production.refined(stopping, fake_meshes(stopping), 100, 1e-6)
+    _, refined = production.refined(fake_runs(stopping), 100, 1e-6)
     assert refined.t.values.max() == 0.5
     assert refined.stop_time[0] == pytest.approx(0.61)
     assert float(refined.stop_time_uncertainty) > 0

@@ -77,6 +77,10 @@ def declared_modules(clone) -> dict[str, set[str]]:
         "renew_map",
         "results/designs/bead.nc",
         "results/gels/ANB.nc",
+        *(
+            f"results/sweeps/sensitivity/{file}"
+            for file in ("accuracy.nc", "surface.pdf", "bars.pdf")
+        ),
     )
     assert result.returncode == 0, result.stdout + result.stderr
     declared, rule = {}, None

@@ -3,7 +3,6 @@
 
 SWEEPS = sorted(path.stem for path in Path("config/sweeps").glob("*.yaml"))
 SOLVING = [
-    *GEL,
     *WALL,
     "bdf",
     "finite_volume",
@@ -18,7 +17,7 @@ DRAWING = ["netcdf", "figures/__init__", "figures/style", "figures/sweep"]
 
 
 wildcard_constraints:
-    sweep="[A-Za-z0-9_]+",
+    sweep="[A-Za-z0-9_.-]+",
     chunk="[0-9]+",
 
 
@@ -56,7 +55,7 @@ rule sweep_designs:
 rule sweep_chunk:
     input:
         designs="results/sweeps/{sweep}/designs.nc",
-        src=modules(*SOLVING),
+        src=modules(*SOLVING, "sweep/part"),
     output:
         "results/sweeps/{sweep}/chunks/{chunk}.nc",
     log:
@@ -86,7 +85,7 @@ rule sweep_combine:
 rule sweep_accuracy:
     input:
         sweep="results/sweeps/{sweep}/sweep.nc",
-        src=modules(*SOLVING, "sweep/accuracy"),
+        src=modules(*SOLVING, "sweep/part", "sweep/accuracy"),
     output:
         "results/sweeps/{sweep}/accuracy.nc",
     log:
@@ -122,13 +121,14 @@ rule sweep_indices:
 rule sweep_surface:
     input:
         sweep="results/sweeps/{sweep}/sweep.nc",
-        src=modules(*DRAWING),
+        src=modules(*DRAWING, "sweep/__init__", "sweep/part"),
     output:
         multiext("results/sweeps/{sweep}/surface", ".pdf", ".png", ".svg"),
     log:
         "results/logs/sweep_{sweep}_surface.log",
     params:
         varied=sweep_spacing,
+        most=100_000,
     script:
         "../scripts/sweep_surface.py"
 

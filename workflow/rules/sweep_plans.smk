@@ -28,11 +28,7 @@ def sweep_chunks(wildcards):
 
 def sweep_spacing(wildcards):
     return {
-        key: (
-            block.get("spaced") == "log"
-            if isinstance(block, dict)
-            else block[0] > 0 and block[-1] > 10 * block[0]
-        )
+        key: (block.get("spaced") == "log" if isinstance(block, dict) else plan.by_ratios(block))
         for key, block in sweep_plan(wildcards.sweep)["parameters"].items()
     }
 

@@ -16,10 +16,10 @@ with job(snakemake) as provenance:
         print(cells, tolerance, bead.attrs)
         return production.measured(bead, gel, temperature)
 
-    def run_meshes(meshes, tolerance):
-        return [run(cells, tolerance) for cells in meshes]
+    def runs(asked):
+        return [run(cells, tolerance) for meshes, tolerance in asked for cells in meshes]
 
-    bead, refinement = production.refined(run, run_meshes, numerics["cells"], numerics["tolerance"])
+    bead, refinement = production.refined(runs, numerics["cells"], numerics["tolerance"])
     title = f"{snakemake.wildcards.case} bead, fully nonlinear model"
     parameters = {"case": case, "gel": snakemake.params.gel, "numerics": numerics}
     netcdf.write(bead, snakemake.output.bead, title, parameters, provenance)

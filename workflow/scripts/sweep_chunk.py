@@ -3,15 +3,12 @@
 from _helpers import job
 
 with job(snakemake) as provenance:
-    import xarray as xr
-
     from gelpump import netcdf
-    from gelpump.sweep import solving
+    from gelpump.sweep import part, solving
 
-    sweep, start = snakemake.params.sweep, int(snakemake.wildcards.chunk) * snakemake.params.size
-    with xr.open_dataset(snakemake.input.designs, engine="netcdf4") as designs:
-        here = designs.isel(index=slice(start, start + snakemake.params.size)).load()
-    here.attrs.clear()
+    sweep, size = snakemake.params.sweep, snakemake.params.size
+    start = int(snakemake.wildcards.chunk) * size
+    here = part.read(snakemake.input.designs, lambda count: slice(start, start + size))
     solved = solving.solve_designs(here, sweep["tau"], sweep["numerics"])
     netcdf.write(
         solved,

@@ -4,10 +4,11 @@ from _helpers import job
 
 with job(snakemake) as provenance:
     from gelpump.figures import style, verification
+    from gelpump.finite_volume import together
     from gelpump.text import write_json, write_text
     from gelpump.verification import bead, table, tube
 
-    studies = [*bead.studies(), *tube.studies()]
+    studies = [study for each in together(bead.studies, tube.studies) for study in each]
     print(table.markdown(studies))
     table.require_all(studies)
     records = [study.record() for study in studies]

@@ -31,6 +31,7 @@ bead advance in the same sweeps.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -44,6 +45,9 @@ if TYPE_CHECKING:
 
 FIRST_STEP = 1e-10
 NEWTON_LIMIT = 8
+TABULATED = 129  # states of the surface, from which Newton's method sets out
+SURFACE_LIMIT = 100  # of its iterations, more than bisection takes
+ROUNDED = 1e-15  # change of phi_s, relative, that is rounding
 MARGIN = 1e-12  # from the ends of the admissible polymer fractions
 FORGETTING = 0.9  # of the curvature measured before, when it is measured anew
 NEWTON_SHARE = 0.03  # of the time tolerance, which the Newton iteration may leave
@@ -112,19 +116,38 @@ class Surface:
         mu = self.gel.shear_modulus(1.0)
         return self.gel.osmotic_pressure(phi, self.temperature) / mu + 4.0 * np.cbrt(phi)
 
-    def polymer_fraction(self, radius: np.ndarray) -> np.ndarray:
-        """phi_s of each radius a, shape of ``radius``; PhaseSeparation if the interval ends."""
-        from scipy.optimize import brentq
+    @cached_property
+    def _tabulated(self) -> tuple[np.ndarray, np.ndarray]:
+        """phi across the interval, and h there: where to begin and between what to stay."""
+        phi = np.geomspace(self.lower, self.upper, TABULATED)
+        return phi, self.load(phi)
 
-        bounds = self.load(self.lower), self.load(self.upper)
-        roots = np.empty_like(radius)
-        for i, a in enumerate(radius):
-            if not bounds[0] < 4.0 / a < bounds[1]:
-                raise PhaseSeparation(self.lower if 4.0 / a <= bounds[0] else self.upper, float(a))
-            roots[i] = brentq(
-                lambda phi, a=a: self.load(phi) - 4.0 / a, self.lower, self.upper, xtol=1e-15
-            )
-        return roots
+    def polymer_fraction(self, radius: np.ndarray) -> np.ndarray:
+        """phi_s of each radius a, shape of ``radius``; PhaseSeparation if the interval ends.
+
+        By Newton's method between bounds that close in on the root.
+        """
+        phi, h = self._tabulated
+        wanted = 4.0 / radius
+        for a, load in zip(radius, wanted, strict=True):
+            if not h[0] < load < h[-1]:
+                raise PhaseSeparation(self.lower if load <= h[0] else self.upper, float(a))
+        above = np.clip(np.searchsorted(h, wanted), 1, TABULATED - 1)
+        low, high = phi[above - 1], phi[above]
+        found = np.interp(wanted, h, phi)
+        mu = self.gel.shear_modulus(1.0)
+        for _ in range(SURFACE_LIMIT):
+            excess = self.load(found) - wanted
+            low, high = np.where(excess < 0.0, found, low), np.where(excess > 0.0, found, high)
+            slope = self.gel.diffusivity(found, self.temperature) / (mu * found)
+            with np.errstate(divide="ignore"):
+                nearer = found - excess / slope
+            nearer = np.where((low < nearer) & (nearer < high), nearer, 0.5 * (low + high))
+            change = np.abs(nearer - found)
+            found = np.where(excess == 0.0, found, nearer)
+            if np.all((change <= ROUNDED * found) | (excess == 0.0)):
+                break
+        return found
 
 
 class Bead:
@@ -240,12 +263,12 @@ def solve_meshes(
     start = shells.R**3 / phi_initial
     sweep = NewtonSweep(len(shells.R))
     kept_times, states = [0.0], [start]
-    surface_fractions = [np.full(len(cells), phi_initial)]
-    reached, latest, steps, loss = 0.0, start, 0, None
+    reached, latest, steps, loss, surface_follows = 0.0, start, 0, None, False
     try:
         surface = Surface.around(gel, temperature, phi_initial)
         bead = Bead(gel, surface, shells, sweep, tolerance)
-        surface_fractions[0] = surface.polymer_fraction(bead.radius(start))
+        surface.polymer_fraction(bead.radius(start))
+        surface_follows = True
         for step in bdf.integrate(
             bead.advance,
             start,
@@ -259,20 +282,22 @@ def solve_meshes(
             while len(states) < len(times) and times[len(states)] <= reached:
                 kept_times.append(times[len(states)])
                 states.append(step.at(kept_times[-1]))
-                surface_fractions.append(surface.polymer_fraction(bead.radius(states[-1])))
     except PhaseSeparation as separation:
         loss = Loss(reached, separation.r, separation.phi, "D < 0, spinodal decomposition")
         if reached > kept_times[-1]:
             kept_times.append(reached)
             states.append(latest)
-            surface_fractions.append(surface.polymer_fraction(bead.radius(latest)))
+    radii = np.cbrt(np.array(states)[:, shells.outer])
+    surface_fractions = np.full(radii.shape, phi_initial)
+    if surface_follows:
+        surface_fractions = surface.polymer_fraction(radii.ravel()).reshape(radii.shape)
     ends = np.cumsum(cells)[:-1]
     return [
         bead_dataset(
             np.array(kept_times),
             np.append(0.0, R),
             np.pad(np.cbrt(u), ((0, 0), (1, 0))),
-            np.array(surface_fractions)[:, mesh],
+            surface_fractions[:, mesh],
             loss,
             gel=gel.name,
             temperature=temperature,

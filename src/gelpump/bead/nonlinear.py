@@ -47,6 +47,7 @@ LOSS = "the radial stress no longer grows with the radial stretch"
 THINNEST_SHARE = 0.01
 MAX_EVALUATIONS = 300_000  # of the rate; production needs some thousands
 ABSOLUTE = 0.01  # absolute tolerance over the relative one: radii are of order one
+NEWTON_SQUARE = 1e-24  # of a surface's last correction, over E: what it leaves is rounding
 MARGIN = 1e-9  # trial steps of CVODE may tangle shells: keeps their f within the gel's bounds
 
 
@@ -68,7 +69,7 @@ class Bead:
         self.mean_square = 0.6 * np.diff(self.R**5) / np.diff(self.R**3)
         low, high = gel.polymer_fraction_bounds
         self.bounds = low + MARGIN, min(high - MARGIN, 1 / MARGIN)
-        self.surface_guess = phi_initial
+        self.follow_surface(phi_initial)
 
     def radial_stress(self, f, l_t):
         """s_r at polymer fraction f and hoop stretch l_t."""
@@ -121,24 +122,34 @@ class Bead:
                 column = j[(j + offset >= 0) & (j + offset < r.size)]
                 J[column + offset, column] = change[column + offset] / (2 * step[column])
 
+    def follow_surface(self, f: float, l_t: float = 1.0, stiffness: float = np.inf) -> None:
+        """Let the next surface be sought from that with polymer fraction f at hoop stretch l_t.
+
+        d(ln f)/d(ln l_t) = -4/(f l_t^4 E) along stress-free surfaces; unknown yet, it is zero.
+        """
+        self.followed = f, l_t, -4 / (f * l_t**4 * stiffness)
+
     def surface(self, l_t: float) -> Surface:
         """Stress-free surface at hoop stretch l_t, on the last one's interval of E > 0."""
-        f = self.surface_guess
+        last, l_t_last, power = self.followed
+        f = last * (l_t / l_t_last) ** power
+        if not abs(f - last) < 0.05 * last * (1 - last):
+            return self._search(l_t)
         for _ in range(10):
             stiffness = self.stiffness(f, l_t)
             change = self.radial_stress(f, l_t) / stiffness  # of ln f
             if stiffness <= 0 or abs(change) > 0.05 * (1 - f):
                 return self._search(l_t)
             f *= 1 + change
-            if abs(change) < 1e-13:
+            if change**2 < NEWTON_SQUARE * min(1.0, stiffness):
                 break
-        self.surface_guess = f
-        return Surface(f, self.stiffness(f, l_t), 0.0)
+        self.follow_surface(f, l_t, stiffness)
+        return Surface(f, stiffness, 0.0)
 
     def _search(self, l_t: float) -> Surface:
         from scipy.optimize import brentq
 
-        f = self.surface_guess
+        f = self.followed[0]
         stress = self.radial_stress(f, l_t)
         # the stress falls with f while E > 0, so its root lies above f if it is positive
         f = np.geomspace(f, self.bounds[1 if stress > 0 else 0], 2000)
@@ -146,8 +157,9 @@ class Bead:
         relieved = np.flatnonzero(parabolic & (self.radial_stress(f, l_t) * stress <= 0))
         if relieved.size:
             ends = f[max(relieved[0] - 1, 0)], f[relieved[0]]
-            self.surface_guess = brentq(self.radial_stress, *ends, args=(l_t,), xtol=1e-15)
-            return Surface(self.surface_guess, self.stiffness(self.surface_guess, l_t), 0.0)
+            root = brentq(self.radial_stress, *ends, args=(l_t,), xtol=1e-15)
+            self.follow_surface(root, l_t, self.stiffness(root, l_t))
+            return Surface(root, self.stiffness(root, l_t), 0.0)
         last = max(np.count_nonzero(parabolic) - 1, 0)
         return Surface(f[last], 0.0, self.radial_stress(f[last], l_t))
 
@@ -243,7 +255,7 @@ def solve(
             if step.t < time:
                 loss = bead.loss(float(step.t), r[-1])
                 break
-    bead.surface_guess = phi_initial  # follow the surface once more from its start
+    bead.follow_surface(phi_initial)  # follow the surface once more from its start
     if np.min(np.diff(r, axis=1, prepend=0.0)) <= 0:
         raise RuntimeError(f"shells tangled: tolerance = {tolerance} is too loose")
     surface = [bead.surface(row[-1]).polymer_fraction for row in r]

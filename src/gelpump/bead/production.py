@@ -11,8 +11,8 @@ from gelpump.uncertainty import convergence_index
 if TYPE_CHECKING:
     import xarray as xr
 
-Run = Callable[[int, float], "xr.Dataset"]
-MeshRun = Callable[[Sequence[int], float], list["xr.Dataset"]]
+Meshes = tuple[Sequence[int], float]
+"""Numbers of cells, and the time tolerance that runs with these have in common."""
 
 MEASURED = ("radius", "surface_polymer_fraction", "smallest_diffusivity", "steepest_gradient")
 TOLERANCE_FACTOR = 4.0
@@ -71,21 +71,24 @@ def measured(bead: "xr.Dataset", gel, temperature: float) -> "xr.Dataset":
 
 
 def refined(
-    run: Run, run_meshes: MeshRun, cells: int, tolerance: float
+    runs: Callable[[Sequence[Meshes]], list["xr.Dataset"]], cells: int, tolerance: float
 ) -> tuple["xr.Dataset", "xr.Dataset"]:
     """A case, and beside it on half and twice the cells and with tolerances four times looser and
     tighter.
 
-    run(cells, tolerance) makes one run, run_meshes(list of cells, tolerance) several that may
-    share their time steps.  The first dataset is the production run.  The second has the dims
-    (level, t), level 0 being production; ``NAME_uncertainty(t)`` adds the estimated errors of
-    space and time.  Runs that stop early are compared up to the first one's stop.
+    runs(list of (list of cells, tolerance)) makes a run for each number of cells, those of one
+    list with time steps that they may share.  The first dataset is the production run.  The second
+    has the dims (level, t), level 0 being production; ``NAME_uncertainty(t)`` adds the estimated
+    errors of space and time.  Runs that stop early are compared up to the first one's stop.
     """
-    meshes = [cells, cells // 2, 2 * cells]
-    tolerances = [TOLERANCE_FACTOR * tolerance, tolerance / TOLERANCE_FACTOR]
-    levels = [(mesh, tolerance) for mesh in meshes] + [(cells, other) for other in tolerances]
-    runs = run_meshes(meshes, tolerance) + [run(cells, other) for other in tolerances]
-    return runs[0], compared(levels, runs)
+    asked = [
+        ([cells, cells // 2, 2 * cells], tolerance),
+        ([cells], TOLERANCE_FACTOR * tolerance),
+        ([cells], tolerance / TOLERANCE_FACTOR),
+    ]
+    levels = [(mesh, common) for meshes, common in asked for mesh in meshes]
+    made = runs(asked)
+    return made[0], compared(levels, made)
 
 
 def compared(levels: Sequence[tuple[int, float]], runs: Sequence["xr.Dataset"]) -> "xr.Dataset":

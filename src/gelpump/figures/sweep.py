@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import FixedFormatter, FixedLocator, NullFormatter, NullLocator
 
 from gelpump.figures import style
 
@@ -24,8 +25,16 @@ LABELS = {
     "V_peak": r"$V_{\max}$",
     "pulse_flux": "pulse flux",
 }
-SHOWN = ("tau99", "A", "Phi1_front", "V_peak")
+SHOWN = {  # with their units
+    "tau99": r"$\tau_{99}$  ($\mu_l L^2/k\Pi_{00}$)",
+    "A": r"$A$  ($1/L$)",
+    "Phi1_front": r"$\Phi_1(Z_C)$",
+    "V_peak": r"$V_{\max}$  ($k\Pi_{00}/\mu_l L$)",
+}
 BINS = 14
+FEWEST = 30  # designs of a bin on average, else bins are wider
+LABELLED = ((1, 1.5, 2, 3, 4, 5, 6, 8), (1, 2, 5), (1, 3), (1,))  # of each decade, if they fit
+MOST_LABELS = 5
 FIRST, TOTAL = "#0072B2", "#E69F00"
 
 
@@ -35,11 +44,14 @@ def surface(dataset: "xr.Dataset", varied: dict[str, bool]) -> Figure:
     varied: the parameters, and whether each is spaced by its logarithm.
     """
     solved = dataset.isel(index=np.flatnonzero(dataset.status.values < 3), tau=-1)
-    fig = style.figure(height=4.6)
-    for ax, name, letter in zip(fig.subplots(2, 2).flat, SHOWN, "abcd", strict=True):
+    bins = int(np.clip(np.sqrt(solved.sizes["index"] / FEWEST), 2, BINS))
+    fig = style.figure(height=4.5)
+    for ax, (name, label), letter in zip(
+        fig.subplots(2, 2).flat, SHOWN.items(), "abcd", strict=True
+    ):
         values = solved[name].values
         x, y = _most_moving(solved, varied, values)
-        edges = [_edges(solved[key].values, varied[key]) for key in (x, y)]
+        edges = [_edges(solved[key].values, varied[key], bins) for key in (x, y)]
         columns = [
             np.clip(np.digitize(solved[key].values, e) - 1, 0, len(e) - 2)
             for key, e in zip((x, y), edges, strict=True)
@@ -50,20 +62,45 @@ def surface(dataset: "xr.Dataset", varied: dict[str, bool]) -> Figure:
         cells, starts = np.unique(cell[order], return_index=True)
         for where, group in zip(cells, np.split(values[order], starts[1:]), strict=True):
             median.flat[where] = np.median(group)
+        norm = LogNorm(*_limits(median))
         mesh = ax.pcolormesh(
-            *edges,
-            median.T,
-            norm=LogNorm(*_limits(median)),
-            cmap=style.POLYMER_FRACTION,
-            rasterized=True,
+            *edges, median.T, norm=norm, cmap=style.POLYMER_FRACTION, rasterized=True
         )
-        bar = fig.colorbar(mesh, ax=ax, pad=0.02, label=LABELS[name])
-        bar.ax.tick_params(labelsize=7, which="both")
+        bar = fig.colorbar(mesh, ax=ax, pad=0.02, label=label)
+        _label(bar.ax.yaxis, norm.vmin, norm.vmax)
         ax.set(xlabel=LABELS[x], ylabel=LABELS[y])
-        ax.set_xscale("log" if varied[x] else "linear")
-        ax.set_yscale("log" if varied[y] else "linear")
+        for key, axis, ends in ((x, ax.xaxis, edges[0]), (y, ax.yaxis, edges[1])):
+            levels = np.unique(solved[key].values)
+            if varied[key]:
+                getattr(ax, f"set_{axis.axis_name}scale")("log")
+                _label(axis, *ends[[0, -1]])
+            if len(levels) <= MOST_LABELS:
+                axis.set_ticks(levels, [f"{level:g}" for level in levels])
+                axis.set_minor_locator(NullLocator())
         style.panel_label(ax, letter)
+    fig.supxlabel(rf"medians of the designs in each bin, at $\tau = {float(solved.tau):g}$",
+                  fontsize=8)  # fmt: skip
     return fig
+
+
+def _label(axis, low, high):
+    """Round numbers on a logarithmic axis, as many as there is room for."""
+    decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
+    for steps in LABELLED:
+        ticks = np.multiply.outer(decades, steps).ravel()
+        ticks = ticks[(low <= ticks) & (ticks <= high)]
+        if len(ticks) <= MOST_LABELS:
+            break
+    plain = [f"{tick:g}" if 1e-3 < tick < 1e4 else _power(tick) for tick in ticks]
+    axis.set_major_locator(FixedLocator(ticks))
+    axis.set_major_formatter(FixedFormatter(plain))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _power(tick):
+    exponent = int(np.floor(np.log10(tick) + 1e-9))
+    step = tick / 10.0**exponent
+    return rf"$10^{{{exponent}}}$" if round(step, 6) == 1 else rf"${step:g}\times10^{{{exponent}}}$"
 
 
 def _limits(median):
@@ -82,7 +119,7 @@ def _most_moving(solved, varied, values):
     return names[0], names[1]
 
 
-def _edges(values, logarithmic):
+def _edges(values, logarithmic, bins):
     levels = np.unique(values)
     if len(levels) <= BINS:  # a grid: a bin for each of its values
         inner = np.sqrt(levels[1:] * levels[:-1]) if logarithmic else (levels[1:] + levels[:-1]) / 2
@@ -92,7 +129,7 @@ def _edges(values, logarithmic):
             ends = 2 * levels[0] - inner[0], 2 * levels[-1] - inner[-1]
         return np.concatenate([ends[:1], inner, ends[1:]])
     spaced = np.geomspace if logarithmic else np.linspace
-    return spaced(levels[0], levels[-1], BINS + 1)
+    return spaced(levels[0], levels[-1], bins + 1)
 
 
 def bars(indices: "xr.Dataset") -> Figure:
@@ -116,7 +153,10 @@ def bars(indices: "xr.Dataset") -> Figure:
         ax.set(xlim=(0.0, 1.08), xticks=[0, 0.5, 1], xticklabels=["0", "0.5", "1"])
         ax.set_yticks(at, [LABELS[str(name)] for name in names])
         ax.tick_params(axis="y", length=0)
-    fig.supxlabel("Sobol index of the logarithm", fontsize=9)
+    fig.supxlabel(
+        rf"Sobol index of the logarithm at $\tau = {float(last.tau):g}$, with 95 per cent interval",
+        fontsize=8,
+    )
     handles, labels = axes[0].get_legend_handles_labels()
     fig.legend(handles[::-1], labels[::-1], loc="outside upper center", ncols=2)
     return fig

@@ -22,7 +22,6 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from .validation import positive, real_number
 
@@ -261,16 +260,20 @@ def _fraction(phi: ArrayLike) -> NDArray:
     return phi
 
 
+_LOG_SERIES = {k: np.append(np.zeros(k), 1 / np.arange(k, 20)) for k in (2, 3)}
+
+
 def _log_tail(phi: NDArray, first: int) -> NDArray:
     """-ln(1-phi) without its terms below phi^first: the sum of phi^k/k over k >= first.
 
     Subtracting the leading terms loses all digits at small phi, hence the series there.
     """
-    coefficients = np.zeros(20)
-    coefficients[first:] = 1 / np.arange(first, 20)
-    series = np.polynomial.polynomial.polyval(np.minimum(phi, 0.1), coefficients)
-    leading = sum(phi**k / k for k in range(1, first))
-    return np.where(phi < 0.1, series, -np.log1p(-phi) - leading)[()]
+    whole = -np.log1p(-phi) - sum(phi**k / k for k in range(1, first))
+    small = phi < 0.1
+    if not np.any(small):
+        return whole
+    series = np.polynomial.polynomial.polyval(np.minimum(phi, 0.1), _LOG_SERIES[first])
+    return np.where(small, series, whole)[()]
 
 
 def _ratio(numerator: NDArray, denominator: NDArray) -> NDArray:
@@ -293,6 +296,8 @@ def _pieces(extrema: NDArray, pole: float | None) -> NDArray:
 
 def _roots(function: Callable[[NDArray], NDArray], ends: NDArray) -> NDArray:
     """The root of `function` in every interval between neighbouring `ends` with a sign change."""
+    from scipy.optimize import brentq
+
     positive_at = function(ends) > 0
     return np.array(
         [

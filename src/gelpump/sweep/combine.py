@@ -41,7 +41,7 @@ def combine(
                 failed += int((chunk["status"][:] == 3).sum())
                 start = stop
         if start != size:
-            raise RuntimeError(f"the chunks hold {start} designs instead of {size}")
+            raise ValueError(f"the chunks hold {start} designs instead of {size}")
     return failed
 
 

@@ -12,9 +12,9 @@ numerics    cells behind and ahead of the front, tolerance, reach
 accuracy    designs that are solved again on a finer mesh, and the error that is allowed
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from math import prod
+from math import log, prod
 from pathlib import Path
 from typing import Any
 
@@ -37,8 +37,9 @@ DEFAULTS = {
     "accuracy": {"designs": 16, "error": 1.0e-2},
 }
 KEYS = ("method", "parameters", "fixed", "tau", *DEFAULTS)
+MOST = 10_000_000  # designs
 WHOLE = {  # keys of whole numbers: least and largest
-    "samples": (1, 10_000_000),
+    "samples": (1, MOST),
     "seed": (0, 2**32 - 1),
     "chunk": (1, 2000),
 }
@@ -72,6 +73,20 @@ def chunks(sweep: Mapping) -> int:
     return -(-designs(sweep) // sweep["chunk"])
 
 
+def by_ratios(values: Sequence[float]) -> bool:
+    """Whether a grid's increasing values are spaced by their logarithm rather than evenly."""
+    if values[0] <= 0 or len(values) < 3:
+        return values[0] > 0 and values[-1] > 10 * values[0]
+    evenness = [
+        max(steps) / min(steps)
+        for steps in (
+            [b - a for a, b in pairwise(values)],
+            [log(b / a) for a, b in pairwise(values)],
+        )
+    ]
+    return evenness[1] < evenness[0]
+
+
 def checked(given: Any, problems: list[str]) -> dict[str, Any]:
     """`given` with its defaults; what is wrong is appended to `problems`."""
     if not isinstance(given, Mapping):
@@ -101,6 +116,8 @@ def checked(given: Any, problems: list[str]) -> dict[str, Any]:
     _check_parameters(sweep, problems)
     _check_block(sweep, "numerics", problems)
     _check_block(sweep, "accuracy", problems)
+    if not problems and (count := designs(sweep)) > MOST:
+        problems.append(f"parameters, samples: give {count} designs: at most {MOST} are allowed")
     return sweep
 
 
@@ -177,6 +194,5 @@ def _check_block(sweep, block, problems):
 
 def _numbers(values):
     return isinstance(values, list) and all(
-        isinstance(v, int | float) and not isinstance(v, bool) and abs(v) < float("inf")
-        for v in values
+        isinstance(v, int | float) and not isinstance(v, bool) and abs(v) < 1e100 for v in values
     )

@@ -19,6 +19,7 @@ displaced either way, share the sweeps: half their difference is free of terms i
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -26,7 +27,7 @@ from scipy.optimize import brentq
 
 from gelpump import bdf
 from gelpump.bead import lens
-from gelpump.finite_volume import NewtonSweep
+from gelpump.finite_volume import NewtonSweep, together
 from gelpump.materials import PiecewiseLinearGel
 from gelpump.verification.study import Study, one_run, space, time
 
@@ -196,34 +197,38 @@ def swelling(gel, temperature: float, phi_initial: float) -> Study:
 
 def spreading() -> list[Study]:
     """Orders in space and in time on Barenblatt's solution."""
-    name, meshes, found = "Barenblatt's bead", [20, 40, 80, 160], []
-    runs, _ = barenblatt(meshes, 1e-8)
+    name, meshes = "Barenblatt's bead", [20, 40, 80, 160]
+    (runs, _), (edge, _), *loose = together(
+        partial(barenblatt, meshes, 1e-8),
+        partial(barenblatt, meshes, 1e-5, inside=1.0),
+        *(partial(barenblatt, meshes[:1], tolerance) for tolerance in (1e-4, 1e-5, 1e-6)),
+    )
     radius = [abs(r[-1] / exact[-1] - 1) for r, exact in runs]
     faces = [np.abs(r - exact).max() for r, exact in runs]
-    found = [
+    up_to_edge = [np.abs(r - exact).max() for r, exact in edge]
+    limit = runs[0][0]  # of the first mesh, with far shorter steps
+    steps, late = [count for _, count in loose], [np.abs(r[0][0] - limit).max() for r, _ in loose]
+    return [
         space(name, "radius", meshes, radius, 1e-4),
         space(name, "radii of all shells", meshes, faces, 1e-4),
+        space(name, "radii of all shells, up to the edge phi = 0", meshes, up_to_edge, 1e-2, 0.9),
+        time(name, "radii of all shells", steps, late, 2e-5),
     ]
-    edge, _ = barenblatt(meshes, 1e-5, inside=1.0)
-    errors = [np.abs(r - exact).max() for r, exact in edge]
-    found.append(
-        space(name, "radii of all shells, up to the edge phi = 0", meshes, errors, 1e-2, 0.9)
-    )
-    limit = runs[0][0]  # of the first mesh, with far shorter steps
-    loose = [barenblatt(meshes[:1], tolerance) for tolerance in (1e-4, 1e-5, 1e-6)]
-    errors = [np.abs(beads[0][0] - limit).max() for beads, _ in loose]
-    found.append(time(name, "radii of all shells", [steps for _, steps in loose], errors, 2e-5))
-    return found
 
 
 def studies() -> list[Study]:
     """All studies of the bead."""
     meshes = [20, 40, 80]
-    rates = relaxation(GEL, SWOLLEN, meshes, 1e-9)
+    drop, rates, swollen, rest = together(
+        spreading,
+        partial(relaxation, GEL, SWOLLEN, meshes, 1e-9),
+        partial(swelling, GEL, SWOLLEN, 2.0),
+        partial(at_rest, GEL, SWOLLEN),
+    )
     return [
         *shell_identities(80),
-        *spreading(),
+        *drop,
         space("relaxing bead", "rate of the slowest mode", meshes, rates, 2e-4),
-        swelling(GEL, SWOLLEN, 2.0),
-        at_rest(GEL, SWOLLEN),
+        swollen,
+        rest,
     ]

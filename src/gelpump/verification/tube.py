@@ -24,11 +24,14 @@ Thin walls.  For ell -> 1 the front stands still on the length w: (K lambda_X)_X
 integration on each side turns into an equation for lambda at the front.
 """
 
+from functools import partial
+
 import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from gelpump.bdf import integrate
+from gelpump.finite_volume import together
 from gelpump.tube import slender
 from gelpump.tube.deswelling import Tubes
 from gelpump.tube.heat import StepHeating
@@ -259,12 +262,15 @@ def spreading_front() -> list[Study]:
     """Orders in space and in time on the manufactured solution."""
     name, meshes, tolerances = "manufactured tube", [(16, 16), (32, 32), (64, 64)], [1e-4, 1e-5]
     counts = [sum(mesh) for mesh in meshes]
-    fine = [manufactured(mesh, 3e-7) for mesh in meshes]
-    runs = [manufactured(meshes[0], tolerance) for tolerance in tolerances]
+    runs = together(
+        *(partial(manufactured, mesh, 3e-7) for mesh in meshes),
+        *(partial(manufactured, meshes[0], tolerance) for tolerance in tolerances),
+    )
+    fine, loose = runs[: len(meshes)], runs[len(meshes) :]
     cells = [np.abs(error[:-1]).max() for _, error, _ in fine]
     front = [abs(error[-1]) for _, error, _ in fine]
-    steps = [count for _, _, count in runs]
-    late = [np.abs(Phi - fine[0][0]).max() for Phi, _, _ in runs]
+    steps = [count for _, _, count in loose]
+    late = [np.abs(Phi - fine[0][0]).max() for Phi, _, _ in loose]
     return [
         space(name, "Phi_1", counts, cells, 3e-4),
         space(name, "Phi_1 at Z_C", counts, front, 1e-4),
@@ -275,12 +281,16 @@ def spreading_front() -> list[Study]:
 def studies() -> list[Study]:
     """All studies of the tube."""
     meshes = [(16, 16), (32, 32), (64, 64)]
-    rates = [relaxation(mesh, 1e-8) for mesh in meshes]
-    in_front, flux = thin_wall((128, 80))
+    front, (in_front, flux), rest, *rates = together(
+        spreading_front,
+        partial(thin_wall, (128, 80)),
+        without_jump,
+        *(partial(relaxation, mesh, 1e-8) for mesh in meshes),
+    )
     return [
-        *spreading_front(),
+        *front,
         space("relaxing tube", "rate of the mode", [sum(mesh) for mesh in meshes], rates, 4e-4),
         one_run("thin wall, ell = 0.9995", "Phi_1 at Z_C", in_front, 1e-3),
         one_run("thin wall, ell = 0.9995", "flux at Z_C", flux, 1e-3),
-        without_jump(),
+        rest,
     ]

@@ -2,9 +2,11 @@
 
     python tests/slurm/run.py
 
-needs root, Debian's slurm-wlm and munge, and workflow/profiles/slurm/requirements.txt.
-Says 'skipped: reason' and ends with 0 where they are missing. The cluster is bound to loopback,
-has its configuration in a folder of its own, and is gone at the end.
+needs root, Debian's slurm-wlm and munge, and workflow/profiles/slurm/requirements.txt, which
+`--install` gets where it can. Says 'skipped: reason' and ends with 0 where they are missing. The
+cluster is bound to loopback, has its configuration in a folder of its own, and is gone at the end,
+also if the test is terminated. It takes a minute on a quiet machine and ends after LIMIT at the
+latest.
 """
 
 import contextlib
@@ -24,7 +26,9 @@ from clone import Clone
 
 HERE = Path(__file__).resolve().parent
 TOOLS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol")
-LIMIT = 170  # seconds
+LIMIT = 400  # seconds, of which all but the last 30 may be spent on sweeps
+INSTALLING = 120  # seconds
+PREFIX = "gelpump-slurm-"
 # the executor takes SLURM_CONF out of the environment of a job before it calls srun
 SYSTEM = Path("/etc/slurm/slurm.conf")
 CONFIG = """
@@ -68,9 +72,33 @@ def missing() -> str:
         return f"no {', '.join(absent)} (apt-get install slurm-wlm munge)"
     if importlib.util.find_spec("snakemake_executor_plugin_slurm") is None:
         return "no executor (pip install -r workflow/profiles/slurm/requirements.txt)"
+    if SYSTEM.is_symlink() and PREFIX in os.readlink(SYSTEM) and not SYSTEM.exists():
+        SYSTEM.unlink()  # of an earlier run that was killed
     if SYSTEM.exists() or SYSTEM.is_symlink():
         return f"{SYSTEM} exists: a cluster is configured on this machine"
     return ""
+
+
+def install() -> None:
+    """What is missing, from Debian and from PyPI, if they can be reached; `missing` looks again."""
+    requirements = Path(__file__).parents[2] / "workflow/profiles/slurm/requirements.txt"
+    for command in (
+        ["apt-get", "update", "-qq"],
+        ["apt-get", "install", "-y", "-qq", "--no-install-recommends", "slurm-wlm", "munge"],
+        [sys.executable, "-m", "pip", "install", "-q", "-r", str(requirements)],
+    ):
+        try:
+            subprocess.run(
+                command,
+                env=os.environ | {"DEBIAN_FRONTEND": "noninteractive"},
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                timeout=INSTALLING,
+                check=False,
+            )
+        except (OSError, subprocess.TimeoutExpired) as problem:
+            print(f"{command[0]}: {problem}")
+    importlib.invalidate_caches()
 
 
 def free_ports(count):
@@ -150,20 +178,44 @@ class Cluster:
         return jobs
 
     def stop(self):
+        """End the daemons, and then everything else that runs from the cluster's folder."""
         SYSTEM.unlink(missing_ok=True)
-        for name in ("n1", "n2", "slurmctld", "munge"):
-            with contextlib.suppress(OSError, ValueError):
-                os.kill(int((self.folder / f"{name}.pid").read_text()), signal.SIGTERM)
-        time.sleep(2)
+        for sent in (signal.SIGTERM, signal.SIGKILL):
+            for name in ("n1", "n2", "slurmctld", "munge"):
+                with contextlib.suppress(OSError, ValueError):
+                    os.kill(int((self.folder / f"{name}.pid").read_text()), sent)
+            deadline = time.monotonic() + 5
+            while self.remaining() and time.monotonic() < deadline:
+                time.sleep(0.2)
+        for pid in self.remaining():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+
+    def remaining(self):
+        """Processes that name the cluster's folder in their command or environment."""
+        found, mark = [], str(self.folder).encode()
+        for entry in Path("/proc").iterdir():
+            if entry.name.isdigit() and int(entry.name) != os.getpid():
+                with contextlib.suppress(OSError):
+                    told = (entry / "cmdline").read_bytes() + (entry / "environ").read_bytes()
+                    if mark in told:
+                        found.append(int(entry.name))
+        return found
 
 
 def main() -> int:
+    if "--install" in sys.argv[1:] and missing():
+        install()
     reason = missing()
     if reason:
         print(f"skipped: {reason}")
         return 0
+    # the folder goes and the daemons end even if the test is told to stop
+    for each in (signal.SIGTERM, signal.SIGHUP, signal.SIGALRM):
+        signal.signal(each, lambda number, _: sys.exit(f"ended by {signal.Signals(number).name}"))
+    signal.alarm(LIMIT)
     start = time.monotonic()
-    with tempfile.TemporaryDirectory(prefix="gelpump-slurm-", ignore_cleanup_errors=True) as name:
+    with tempfile.TemporaryDirectory(prefix=PREFIX, ignore_cleanup_errors=True) as name:
         local, remote = (Clone(Path(name) / each) for each in ("local", "remote"))
         for clone in (local, remote):
             shutil.copy(HERE / "sweep.yaml", clone.path / "config/sweeps/slurm.yaml")
@@ -189,7 +241,7 @@ def main() -> int:
             )
             killed = []
             chunks = remote.path / "results/sweeps/slurm/chunks"
-            while run.poll() is None and time.monotonic() - start < LIMIT:
+            while run.poll() is None and time.monotonic() - start < LIMIT - 30:
                 if not killed and list(chunks.glob("[0-9]*.nc")) and cluster.jobs_on("n1"):
                     killed = cluster.kill_node("n1")
                     print(f"killed node n1 with its job {', '.join(killed)}", flush=True)
@@ -206,9 +258,11 @@ def main() -> int:
             down = cluster.run("sinfo", "-h", "-N", "-o", "%N %T").splitlines()
             print("nodes at the end:", ", ".join(down))
         finally:
+            signal.alarm(0)
             if run is not None and run.poll() is None:
                 run.kill()
             cluster.stop()
+            assert not cluster.remaining(), "the cluster is still there"
     print(f"passed: equal bit for bit, {time.monotonic() - start:.0f} s")
     return 0
 

@@ -138,3 +138,16 @@ def test_a_refused_sweep_starts_no_job(restarted):
         assert clone.snakemake("--dry-run", "fig13_osmotic").returncode == 0  # not asked for
     finally:
         describe(clone)
+
+
+@pytest.mark.xdist_group("sweep")
+def test_a_sweep_cannot_have_the_name_of_a_rule(restarted):
+    clone, *_ = restarted
+    file = clone.path / "config/sweeps/chunk.yaml"
+    file.write_text("method: grid\n")
+    try:
+        run = clone.snakemake("--dry-run", "sweep_my-own")
+        assert run.returncode != 0
+        assert "config/sweeps/chunk.yaml: 'chunk' must have another name" in said(run)
+    finally:
+        file.unlink()

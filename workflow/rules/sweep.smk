@@ -1,7 +1,9 @@
 # Sweeps over the tube's parameters: config/sweeps/NAME.yaml is `snakemake --cores 2 sweep_NAME`.
 # A file is read when its sweep is asked for, and only then.
 
-SWEEPS = sorted(path.stem for path in Path("config/sweeps").glob("*.yaml"))
+import sys
+
+SWEEPS = sweep_names("designs", "chunk", "combine", "accuracy", "indices", "surface", "bars")
 SOLVING = [
     *WALL,
     "bdf",
@@ -143,3 +145,29 @@ rule sweep_bars:
         "results/logs/sweep_{sweep}_bars.log",
     script:
         "../scripts/sweep_bars.py"
+
+
+# What sweeps cost, measured; not part of a build, since nothing measured repeats to the byte.
+MEASURED_SWEEPS = "results/benchmarks/sweeps/measured.json"
+
+
+rule measure_sweeps:
+    output:
+        MEASURED_SWEEPS,
+    log:
+        "results/logs/measure_sweeps.log",
+    params:
+        python=sys.executable,
+    shell:
+        "OMP_NUM_THREADS=1 {params.python:q} -m benchmarks.sweeps measure {output:q} > {log:q} 2>&1"
+
+
+rule costs_of_sweeps:
+    input:
+        MEASURED_SWEEPS,
+    log:
+        "results/logs/costs_of_sweeps.log",
+    params:
+        python=sys.executable,
+    shell:
+        "{params.python:q} -m benchmarks.sweeps page {input:q} docs > {log:q} 2>&1"

@@ -4,6 +4,17 @@ from functools import cache
 from gelpump.sweep import plan
 
 
+def sweep_names(*taken):
+    """The sweeps that there are; none may have the name of one of the rules below."""
+    found = sorted(path.stem for path in Path("config/sweeps").glob("*.yaml"))
+    for name in sorted({*found} & {*taken}):
+        raise WorkflowError(
+            f"config/sweeps/{name}.yaml: {name!r} must have another name, sweep_{name} is a rule; "
+            f"taken: {list(taken)}"
+        )
+    return found
+
+
 @cache
 def sweep_plan(name):
     try:

@@ -1,5 +1,6 @@
 """Rule design: a device solved in SI units, with its sheet."""
 
+import pint  # noqa: F401  before `job` hides from xarray what is not imported
 from _helpers import job
 
 with job(snakemake) as provenance:

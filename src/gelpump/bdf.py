@@ -20,6 +20,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gelpump import progress
+
 SAFETY = 0.9
 SHRINK_LIMIT = 0.2
 MAX_TRIALS = 20_000  # steps, accepted or not: production needs some hundreds
@@ -146,6 +148,7 @@ def integrate(
         times.insert(0, t)
         solutions.insert(0, solution)
         del times[order + 1 :], solutions[order + 1 :]
+        progress.at(t, end)
         yield Step(np.array(times), np.array(solutions))
         step *= min(GROWTH_LIMIT, max(SHRINK_LIMIT, optimum))
     raise RuntimeError(f"{trials} steps ended at t = {times[0]:.8g}, before t = {end:.8g}")

@@ -101,7 +101,9 @@ def test_rules_declare_exactly_what_their_scripts_import(clone):
         script = PROJECT / f"workflow/scripts/{rule}.py"
         assert script.exists(), f"rule {rule} has no script of its name"
         imported = {str(file.relative_to(PROJECT)) for file in closure(script)}
-        imported |= {f"src/gelpump/{module}.py" for module in ("__init__", "provenance")}
+        imported |= {
+            f"src/gelpump/{module}.py" for module in ("__init__", "progress", "provenance")
+        }
         imported.add("workflow/scripts/_helpers.py")
         assert files == imported, rule
 

@@ -52,6 +52,7 @@ def modules(*names):
     """
     files = [
         "src/gelpump/__init__.py",
+        "src/gelpump/progress.py",
         "src/gelpump/provenance.py",
         "workflow/scripts/_helpers.py",
     ]

@@ -11,6 +11,8 @@ import time
 import traceback
 from pathlib import Path
 
+from gelpump import progress
+
 
 @contextlib.contextmanager
 def job(snakemake):
@@ -33,7 +35,8 @@ def job(snakemake):
         contextlib.redirect_stdout(log),
         contextlib.redirect_stderr(log),
     ):
-        threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
+        watch = progress.Watch(snakemake.log[0])
+        threading.Thread(target=_end_with, args=(os.getppid(), watch), daemon=True).start()
         logging.basicConfig(stream=log, level=logging.INFO, format="%(levelname)s %(message)s")
         logging.captureWarnings(True)
         try:
@@ -47,6 +50,8 @@ def job(snakemake):
         except BaseException:
             traceback.print_exc()
             raise
+        finally:
+            watch.end()
     leave.at_once = True
 
 
@@ -67,8 +72,9 @@ class Leave:
             os._exit(0)
 
 
-def _end_with(scheduler):
+def _end_with(scheduler, watch):
     while os.getppid() == scheduler:
+        watch.write()
         time.sleep(0.1)
     os._exit(1)
 

@@ -36,6 +36,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gelpump import progress
 from gelpump.bead.dataset import Loss, bead_dataset
 
 if TYPE_CHECKING:
@@ -247,6 +248,7 @@ def solve(
             step = solver.step(time)
             if not step.success:
                 raise RuntimeError(f"CVODE at t = {step.t}: {step.message}")
+            progress.at(float(step.t), float(times[-1]))
             t.append(float(step.t))
             r.append(np.array(step.y))
             evaluations = int(step.nfev)

@@ -48,7 +48,7 @@ LOSS = "the radial stress no longer grows with the radial stretch"
 THINNEST_SHARE = 0.01
 MAX_EVALUATIONS = 300_000  # of the rate; production needs some thousands
 ABSOLUTE = 0.01  # absolute tolerance over the relative one: radii are of order one
-NEWTON_SQUARE = 1e-24  # of a surface's last correction, over E: what it leaves is rounding
+NEWTON_SQUARE = 1e-12  # of a last correction, over E: what it leaves, far below any tolerance
 MARGIN = 1e-9  # trial steps of CVODE may tangle shells: keeps their f within the gel's bounds
 
 
@@ -67,7 +67,14 @@ class Bead:
         self.gel, self.temperature = gel, temperature
         self.mu = gel.shear_modulus(1.0)
         self.R = np.sin(np.pi / 2 * np.linspace(0, 1, cells + 1))
-        self.mean_square = 0.6 * np.diff(self.R**5) / np.diff(self.R**3)
+        self.volume = np.diff(self.R**3)
+        self.mean_square = 0.6 * np.diff(self.R**5) / self.volume
+        square = self.R[1:] ** 2
+        # of each shell, in R^2: from its outer face to its mean, over the distance of two faces
+        spacing = np.diff(square)
+        self.inward = (self.mean_square - square) / np.append(spacing[0], spacing)
+        # of each inner face: where between the means of its two shells it lies
+        self.between = (square[:-1] - self.mean_square[:-1]) / np.diff(self.mean_square)
         low, high = gel.polymer_fraction_bounds
         self.bounds = low + MARGIN, min(high - MARGIN, 1 / MARGIN)
         self.follow_surface(phi_initial)
@@ -84,27 +91,32 @@ class Bead:
 
     def polymer_fraction(self, r: NDArray) -> NDArray:
         """f of each shell: its dry volume over its volume."""
-        with np.errstate(divide="ignore"):
-            f = np.diff(self.R**3) / np.diff(r**3, prepend=0.0)
-        return np.clip(np.where(f < 0, self.bounds[1], f), *self.bounds)
+        volume = r * r * r
+        volume[1:] -= volume[:-1].copy()
+        low, high = self.bounds  # a shell that is turned inside out counts as densest
+        return np.maximum(self.volume / np.maximum(volume, self.volume / high), low)
 
     def hoop_stretch(self, r: NDArray) -> NDArray:
         """l_t of each shell: r/R is even in R, so it is taken linear in R^2, to the centre too."""
-        stretch, square = r / self.R[1:], self.R[1:] ** 2
-        slope = np.diff(stretch) / np.diff(square)
-        return stretch + np.append(slope[0], slope) * (self.mean_square - square)
+        stretch = r / self.R[1:]
+        rise = np.empty_like(stretch)
+        np.subtract(stretch[1:], stretch[:-1], out=rise[1:])
+        rise[0] = rise[1]
+        return stretch + rise * self.inward
 
     def rate(self, r: NDArray) -> NDArray:
         """dr/dt of the faces."""
         f, l_t = self.polymer_fraction(r), self.hoop_stretch(r)
         stretch = r / self.R[1:]
         f_s = self.surface(stretch[-1]).polymer_fraction
-        stress = np.append(self.radial_stress(f, l_t), 0.0)
-        square = np.append(l_t**2 * self.mean_square, r[-1] ** 2)
-        gradient = 2 * r * np.diff(stress) / np.diff(square)
-        share = (self.R[1:-1] ** 2 - self.mean_square[:-1]) / np.diff(self.mean_square)
-        face = np.append(f[:-1] + share * np.diff(f), f_s)
-        return gradient + 2 / r * (1 / (face * stretch**4) - face * stretch**2)
+        cells = f.size
+        stress, square, face = np.zeros(cells + 1), np.empty(cells + 1), np.empty(cells)
+        stress[:-1] = self.radial_stress(f, l_t)
+        square[:-1], square[-1] = l_t**2 * self.mean_square, r[-1] ** 2
+        face[:-1], face[-1] = f[:-1] + self.between * (f[1:] - f[:-1]), f_s
+        gradient = 2 * r * (stress[1:] - stress[:-1]) / (square[1:] - square[:-1])
+        hoop = stretch**2
+        return gradient + 2 / r * (1 / (face * hoop**2) - face * hoop)
 
     def jacobian(self, r: NDArray, J: NDArray) -> None:
         """Fill J with d(rate)/dr, tridiagonal, by central differences.

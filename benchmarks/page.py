@@ -305,9 +305,4 @@ def write(measured: Mapping[str, Any], folder: Path) -> None:
     seen = "\nWhat made it faster, lever by lever: [levers.md](levers.md).\n"
     write_text(page(measured, seen if levers.exists() else ""), folder / "performance.md")
     with style.styled():
-        fig = draw(measured["cost"]["problems"])
-        fig.set_dpi(150)
-        import matplotlib
-
-        with matplotlib.rc_context({"savefig.dpi": 150}):
-            style.save(fig, [folder / "performance.png"])
+        style.save(draw(measured["cost"]["problems"]), [folder / "performance.png"])

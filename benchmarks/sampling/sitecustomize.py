@@ -19,7 +19,7 @@ INTERVAL = 0.004  # s of CPU time; the kernel's clock does not tick much faster
 
 def _begin(folder: str) -> None:
     start = latest = time.process_time()  # all of it was the interpreter's own start
-    born, process, sampling = time.monotonic(), os.getpid(), 0.0
+    born, process, sampling, told = time.monotonic(), os.getpid(), 0.0, False
     seconds: dict[tuple[str, ...], float] = {}
 
     def sample(_, frame):
@@ -35,8 +35,10 @@ def _begin(folder: str) -> None:
         sampling += latest - now
 
     def leave():
-        if os.getpid() != process:  # a fork, whose parent tells
+        nonlocal told
+        if told or os.getpid() != process:  # of a fork, its parent tells
             return
+        told = True
         signal.setitimer(signal.ITIMER_PROF, 0)
         sample(None, None)
         stacks = json.dumps([[list(stack), spent] for stack, spent in seconds.items()])
@@ -51,6 +53,13 @@ def _begin(folder: str) -> None:
         with open(os.path.join(folder, f"{process}.json"), "w", encoding="utf-8") as file:
             file.write(f'{json.dumps(record)[:-1]}, "stacks": {stacks}}}')
 
+    exit_now = os._exit
+
+    def leave_now(status):
+        leave()
+        exit_now(status)
+
+    os._exit = leave_now  # which calls no exit handlers
     atexit.register(leave)
     signal.signal(signal.SIGPROF, sample)
     signal.setitimer(signal.ITIMER_PROF, INTERVAL, INTERVAL)

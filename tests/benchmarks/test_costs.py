@@ -38,8 +38,19 @@ def test_all_tools_swell_the_same_bead(swelling):
     assert swelling.error(tools.our_bead(swelling, 24, 1e-3)) < 5e-3
     assert swelling.error(tools.second_bead(swelling, 40, 1e-4)) < 5e-3
     assert swelling.error(lines.LensLines(swelling, 16).solve("CVODE", 1e-4)) < 5e-3
-    # uniform cells and arithmetic means of D, which varies a thousandfold: far away, but no more
-    assert swelling.error(tools.textbook_bead(swelling, 20, 20)) < 0.2
+
+
+def test_the_textbook_bead_converges(swelling):
+    """Uniform cells, first order in time: slowly, but to the same radius."""
+    errors = [swelling.error(tools.textbook_bead(swelling, *n)) for n in ((20, 40), (40, 160))]
+    assert errors[0] < 2e-2
+    assert errors[1] < 4e-3
+
+
+def test_sweeps_of_the_textbook_that_do_not_end_are_an_error(swelling, monkeypatch):
+    monkeypatch.setattr(tools, "MOST_SWEEPS", 3)
+    with pytest.raises(ArithmeticError, match="3 sweeps left a change"):
+        tools.textbook_bead(swelling, 20, 20)
 
 
 def test_the_nonlinear_bead_swells_nearly_as_the_lens_bead(swelling):

@@ -5,7 +5,6 @@ python -m benchmarks.sweeps measure FILE.json  |  python -m benchmarks.sweeps pa
 
 import json
 import os
-import resource
 import shutil
 import subprocess
 import sys
@@ -30,7 +29,7 @@ CHUNKS = (10, 30, 100, 250, 500, 1000, 2000)  # designs
 THREE_PLACES = 500  # designs of the largest chunk that is measured at three places
 COMBINED = (1_000, 10_000, 100_000)  # designs
 SAMPLED = (10_000, 100_000, 1_000_000)  # designs
-PLANNED = (100, 400, 1600)  # chunks
+PLANNED = (100, 400, 1600, 6400)  # chunks
 FORMULAE = 1_000_000  # designs
 EXTRAPOLATED = ((10_000, 250), (100_000, 250), (100_000, 2000), (10_000_000, 2000))
 MANY = 100_000  # designs of which the measured chunks are parts, sorted as in a sweep
@@ -46,6 +45,11 @@ def _designs(count):
     from gelpump.sweep import sampling
 
     return sampling.sample(hypercube(samples=count))
+
+
+def peak() -> float:
+    """Peak memory in MB of a process that does nothing, with what is imported here so far."""
+    return forked(lambda: None)[1]
 
 
 def solve(start: int, size: int, path: Path | None = None) -> None:
@@ -85,11 +89,14 @@ def chunk_sizes() -> list[dict]:
 
 
 def combining(folder: Path) -> list[dict]:
-    """CPU seconds and peak memory of combining, by the number of designs."""
+    """CPU seconds and memory of combining beyond its libraries, by the number of designs."""
+    import netCDF4  # noqa: F401
+
     from gelpump.sweep import combine
 
     chunk, target, found = folder / "chunk.nc", folder / "sweep.nc", []
     forked(lambda: solve(_start(0.5, 250), 250, chunk))
+    base = peak()
     for designs in COMBINED:
         paths = [chunk] * (designs // 250)
         seconds, memory = forked(
@@ -97,7 +104,7 @@ def combining(folder: Path) -> list[dict]:
         )
         size = target.stat().st_size
         found.append(
-            {"designs": designs, "seconds": seconds, "memory_mb": memory, "bytes": size,
+            {"designs": designs, "seconds": seconds, "memory_mb": memory - base, "bytes": size,
              "chunk_bytes": chunk.stat().st_size}
         )  # fmt: skip
         print(found[-1], flush=True)
@@ -105,14 +112,14 @@ def combining(folder: Path) -> list[dict]:
 
 
 def sampled() -> list[dict]:
-    """CPU seconds and peak memory of drawing the designs."""
+    """CPU seconds and memory of drawing the designs beyond its libraries."""
     from gelpump.sweep import sampling
 
     sampling.sample(hypercube(samples=2))  # imports
-    found = []
+    base, found = peak(), []
     for count in SAMPLED:
         seconds, memory = forked(lambda n=count: sampling.sample(hypercube(samples=n)))
-        found.append({"designs": count, "seconds": seconds, "memory_mb": memory})
+        found.append({"designs": count, "seconds": seconds, "memory_mb": memory - base})
         print(found[-1], flush=True)
     return found
 
@@ -188,7 +195,7 @@ def job(folder: Path, chunks: int = 6, size: int = 10) -> dict:
     alone, _ = forked(solves)
     left = [
         folder / "results/logs/sweep_measured/000000.log",
-        *(folder / "results/provenance").rglob("000000.json"),
+        folder / "results/provenance/sweep_measured/000000.json",
     ]
     return {
         "seconds": (whole - planned - alone) / chunks,
@@ -197,20 +204,41 @@ def job(folder: Path, chunks: int = 6, size: int = 10) -> dict:
     }
 
 
+def whole_run(folder: Path) -> dict:
+    """The hypercube of config/sweeps as a user runs it, on two cores."""
+    from gelpump.netcdf import read
+    from gelpump.sweep.accuracy import verdict
+
+    before = time.monotonic()
+    seconds, _ = _snakemake(folder, "--cores", "2", "sweep_hypercube")
+    spent, made = time.monotonic() - before, folder / "results/sweeps/hypercube"
+    passed, told = verdict(read(made / "accuracy.nc"))
+    sweep = read(made / "sweep.nc")
+    ended = {
+        word: int((sweep.status == flag).sum())
+        for flag, word in enumerate(sweep.status.flag_meanings.split())
+    }
+    plan_ = hypercube()
+    found = {"designs": plan_["samples"], "chunk": plan_["chunk"], "seconds": seconds,
+             "wall": spent, "passed": passed, "told": told, "ended": ended}  # fmt: skip
+    print(found, flush=True)
+    return found
+
+
 def measure() -> dict[str, Any]:
     """Everything that the page tells."""
     found: dict[str, Any] = {"machine": machine()}
     start = time.monotonic()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        found["formulae"] = formulae()
         found["sampled"] = sampled()
-        found["base_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
         found["combined"] = combining(folder)
         (folder / "clone").mkdir()
         _clone(folder / "clone", 1, 1)
         found["planned"] = planning(folder / "clone")
         found["job"] = job(folder / "clone")
+        found["whole"] = whole_run(folder / "clone")
+    found["formulae"] = formulae()
     found["chunks"] = chunk_sizes()
     print(f"{time.monotonic() - start:.0f} s", flush=True)
     return found
@@ -223,7 +251,7 @@ def extrapolated(measured: Mapping[str, Any], designs: int, size: int) -> dict[s
     planned = measured["planned"]
     counts = [each["chunks"] for each in planned]
     plan_of = {
-        key: _power(counts, [each[key] for each in planned], jobs)
+        key: _line(counts, [each[key] for each in planned], jobs)
         for key in ("seconds", "memory_mb")
     }
     combined = measured["combined"][-1]
@@ -243,16 +271,10 @@ def extrapolated(measured: Mapping[str, Any], designs: int, size: int) -> dict[s
     }
 
 
-def _power(counts, values, there):
-    """The power law of the last two, beyond what was measured; between, log-log."""
-    exponent = growth(counts, values).exponent if len(counts) > 2 else 1.0
-    last = np.log(values[-1] / values[-2]) / np.log(counts[-1] / counts[-2])
-    return float(values[-1] * (there / counts[-1]) ** max(exponent, last))
-
-
 def _line(counts, values, there):
-    slope = (values[-1] - values[0]) / (counts[-1] - counts[0])
-    return float(values[0] + slope * (there - counts[0]))
+    """A fixed part and one that grows, fitted relatively; at least the fixed one."""
+    fit = growth(counts, values)
+    return fit.fixed + fit.slope * there
 
 
 def tables(measured: Mapping[str, Any]) -> dict[str, str]:
@@ -278,15 +300,15 @@ def tables(measured: Mapping[str, Any]) -> dict[str, str]:
             [
                 f"{designs:,}".replace(",", " "),
                 size,
-                f"{cost['jobs']:.0f}",
-                f"{cost['solve_hours']:.2g} + {cost['job_hours']:.2g}",
+                _two(cost["jobs"]),
+                f"{_two(cost['solve_hours'])} + {_two(cost['job_hours'])}",
                 _time(3600 * hours / 2),
                 _time(3600 * hours / 200),
-                f"{cost['files']:.0f}",
-                f"{cost['bytes'] / 1e9:.2g}",
+                _two(cost["files"]),
+                _two(cost["bytes"] / 1e9),
                 _time(cost["plan_seconds"]),
-                f"{cost['plan_mb'] / 1000:.2g}",
-                f"{cost['draw_mb'] / 1000:.2g}",
+                _two(cost["plan_mb"] / 1000),
+                _two(cost["draw_mb"] / 1000),
             ]
         )
     return {
@@ -296,7 +318,7 @@ def tables(measured: Mapping[str, Any]) -> dict[str, str]:
             sizes,
         ),
         "combined": table(
-            ["designs", "chunks of 250", "CPU s", "peak MB", "MB on disk"],
+            ["designs", "chunks of 250", "CPU s", "MB in memory", "MB on disk"],
             [
                 [c["designs"], c["designs"] // 250, f"{c['seconds']:.2f}", f"{c['memory_mb']:.0f}",
                  f"{c['bytes'] / 1e6:.2f}"]
@@ -319,8 +341,13 @@ def tables(measured: Mapping[str, Any]) -> dict[str, str]:
 def _time(seconds: float) -> str:
     for unit, length in (("d", 86400), ("h", 3600), ("min", 60)):
         if seconds >= 2 * length:
-            return f"{seconds / length:.2g} {unit}"
-    return f"{seconds:.2g} s"
+            return f"{_two(seconds / length)} {unit}"
+    return f"{_two(seconds)} s"
+
+
+def _two(value: float) -> str:
+    """Two digits, without a power of ten."""
+    return f"{float(f'{value:.2g}'):,.10g}".replace(",", " ")
 
 
 def page(measured: Mapping[str, Any]) -> str:

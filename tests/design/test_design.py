@@ -13,7 +13,9 @@ from scipy.special import erfinv
 
 from gelpump.design import __main__ as command
 from gelpump.design import description, device, inverse, units, validity
+from gelpump.design.gel_errors import gel_errors, gel_note
 from gelpump.design.result import AMBER, GREEN, RED
+from gelpump.materials import measured
 
 PROJECT = Path(__file__).resolve().parents[2]
 GELS = yaml.safe_load((PROJECT / "config/config.yaml").read_text())["gels"]
@@ -246,3 +248,67 @@ def test_the_command_answers(capsys, monkeypatch):
     assert "thickness of the wall, same outer radius:" in said
     assert command.main([str(FILES["microtube"]), "--within", "10 mm"]) == 1
     assert command.main(["no-such-file.yaml"]) == 1
+
+
+@pytest.mark.parametrize("criterion", validity.CRITERIA, ids=lambda each: each.key)
+def test_every_criterion_has_three_lights(criterion):
+    better, worse = (2.0, 0.5) if criterion.large else (0.5, 2.0)
+    assert criterion.light(criterion.green) == GREEN
+    assert criterion.light(criterion.green * better) == GREEN
+    assert criterion.light(math.sqrt(criterion.green * criterion.amber)) == AMBER
+    assert criterion.light(criterion.amber) == AMBER
+    assert criterion.light(criterion.amber * worse) == RED
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [
+        (12.7251, 4, "12.73"),
+        (5.0, 3, "5"),
+        (-2.4634, 3, "−2.46"),
+        (16000, 2, "16000"),
+        (1e-7, 3, "10⁻⁷"),
+        (-1e7, 3, "−10⁷"),
+        (1.1236e-8, 4, "1.124 × 10⁻⁸"),
+        (9.999e-4, 2, "0.001"),
+        (120000, 2, "1.2 × 10⁵"),
+        (0.0, 3, "0"),
+    ],
+)
+def test_numbers_as_they_are_typeset(value, digits, text):
+    assert units.told(value, digits) == text
+
+
+def measured_gel():
+    points = measured.read(PROJECT / "config/gels/synthetic.csv")
+    fit = measured.fit("synthetic", points)
+    gel = {"model": "energy-based"} | dict(zip(measured.NAMES, fit.parameters, strict=True))
+    return gel | {"temperature_range": list(fit.gel.temperature_range)}, fit
+
+
+def test_errors_of_a_measured_gel_reach_the_numbers():
+    """Linear propagation against gels drawn from the covariance itself."""
+    gel, fit = measured_gel()
+    given = block("millitube") | {"gel": "synthetic", "critical_temperature": "303 K"}
+    errors = gel_errors("mine", given, gel, fit)
+    rng = np.random.default_rng(1)
+    axes = np.linalg.eigh(fit.covariance)
+    drawn = []
+    for _ in range(200):
+        shift = axes.eigenvectors @ (np.sqrt(np.maximum(axes.eigenvalues, 0)) * rng.normal(size=5))
+        moved = gel | dict(zip(measured.NAMES, map(float, fit.parameters + shift), strict=True))
+        found = device.results(description.checked("mine", given, {"synthetic": moved}))
+        drawn.append({each.key: each.value for each in found})
+    for key in ("response_time", "osmotic_modulus", "M", "Pi_ratio", "Phi_inf", "Lewis_number"):
+        assert errors[key] == pytest.approx(np.std([each[key] for each in drawn]), rel=0.2), key
+    for key in ("travel_time", "front_speed", "ell", "wall"):
+        assert errors[key] == 0, key
+    assert "standard error" in gel_note(errors)
+
+
+def test_a_gel_that_its_errors_make_impossible_is_told_so():
+    gel, fit = measured_gel()
+    wide = replace(fit, covariance=1e6 * fit.covariance)
+    with pytest.raises(description.DesignError) as refusal:
+        gel_errors("mine", block("millitube") | {"gel": "synthetic"}, gel, wide)
+    assert "not carried over" in gel_note(refusal.value)

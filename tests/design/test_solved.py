@@ -1,12 +1,20 @@
 """Solved designs on coarse meshes, in SI units."""
 
+import html
+import os
+import subprocess
+import sys
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
 
+from gelpump import netcdf
 from gelpump.design import dataset, description, device, sheet
+from gelpump.figures import design as drawing
+from gelpump.figures import style
 
 PROJECT = Path(__file__).resolve().parents[2]
 GELS = yaml.safe_load((PROJECT / "config/config.yaml").read_text())["gels"]
@@ -57,14 +65,19 @@ def test_every_number_has_unit_source_and_sane_uncertainty(tube):
             assert 0 <= float(data[f"{key}_uncertainty"]) < 0.5 * abs(float(data[key])), key
     assert len(dataset.lights(data)) == 8
     rows = list(dataset.csv_rows(data))
-    assert {len(row) for row in rows} == {6}
+    assert {len(row) for row in rows} == {7}
     page = sheet.html(data, "<svg></svg>")
     assert "What responds within 50 ms?" in page
     assert page.count('class="light"') == 8
 
 
-def test_a_scaled_bead_responds_with_the_square_of_its_radius():
-    _, data = solved("bead", BEAD)
+@pytest.fixture(scope="module")
+def bead():
+    return solved("bead", BEAD)
+
+
+def test_a_scaled_bead_responds_with_the_square_of_its_radius(bead):
+    _, data = bead
     _, larger = solved("bead", BEAD, radius="0.3 mm")
     assert float(larger.response_time / data.response_time) == pytest.approx(4, rel=1e-6)
     assert float(data.radius[0]) == pytest.approx(150e-6, rel=1e-9)
@@ -76,3 +89,72 @@ def test_a_bead_whose_phases_separate_says_so():
     lights = {row.text: row for row in sheet.light_rows(data)}
     assert lights["phases do not separate on the way"].light == "red"
     assert "response_time" not in data
+
+
+def test_the_sheet_says_why_the_two_forms_of_the_lumen_differ(tube):
+    """As printed water is pumped out of this tube, with water conserved it is drawn in."""
+    _, data = tube
+    last = data.isel(t=-1)
+    assert float(last.pumped_volume_printed) > 0 > float(last.pumped_volume_continuous)
+    area = np.pi * (50e-6) ** 2
+    for form, motion in (("printed", 0.0), ("continuous", 0.03)):
+        parts = float(last[f"far_behind_{form}"] + last[f"far_ahead_{form}"])
+        whole = float(last[f"flow_far_{form}"]) / area
+        assert parts == pytest.approx(whole, rel=max(motion, 1e-3))
+        assert float(last[f"far_behind_{form}"]) > 0 > float(last[f"far_ahead_{form}"])
+    note = sheet.notes(data)[0]
+    assert "nL go out in the pulse; with water conserved" in note
+    assert "nL go in. Both are given: they differ in sign here" in note
+    assert html.escape(note, quote=True) in sheet.html(data, "<svg></svg>")
+
+
+def test_every_light_is_seen_on_the_sheet():
+    """A stout tube of a gel that hardly collapses slower than it is heated through: all three."""
+    _, data = solved("microtube", TUBE, heated_length="0.4 mm", permeability="1.2e-14 m^2")
+    rows = {row.text: row for row in sheet.light_rows(data)}
+    assert rows["the tube is slender"].light == "amber"
+    assert rows["heat is faster than water in the gel"].light == "red"
+    assert rows["the gel is many pores thick"].light == "green"
+    page = sheet.html(data, "<svg></svg>")
+    for light, mark in sheet.MARKS.items():
+        assert f'<tr class="{light}"><td class="light"><span class="mark">{mark}' in page
+    assert set(drawing.LIGHT_COLOURS) == set(drawing.LIGHT_MARKERS) == set(sheet.MARKS)
+    with style.styled():
+        texts = [each.get_text() for each in drawing.page(data).texts]
+    assert {"green", "amber", "red"} <= set(texts)
+
+
+def test_datasets_of_designs_follow_the_cf_conventions(tube, bead, tmp_path):
+    files = []
+    for name, (_, data) in (("tube", tube), ("bead", bead)):
+        files.append(str(tmp_path / f"{name}.nc"))
+        netcdf.write(data, files[-1], "a design", {})
+    result = subprocess.run(
+        ["compliance-checker", "--test=cf:1.11", "--criteria=strict", *files],
+        capture_output=True,
+        text=True,
+        env=os.environ | {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"},
+        check=False,
+    )
+    assert result.stdout.count("All tests passed!") == len(files), result.stdout[-4000:]
+
+
+@pytest.mark.parametrize("name", ["tube", "bead"])
+def test_the_page_keeps_to_its_margins(request, name):
+    _, data = request.getfixturevalue(name)
+    with style.styled():
+        fig = drawing.page(data)
+        fig.set_dpi(600)  # text is as wide as in the PDF, not as its pixels make it
+        fig.draw_without_rendering()
+        boxes = [(t.get_text(), t.get_window_extent()) for t in fig.texts]
+    width, height = fig.get_size_inches() * fig.dpi
+    rows = {}
+    for text, box in boxes:
+        assert box.x0 > 0.05 * width, text
+        assert box.x1 < 0.96 * width, text
+        assert box.y0 > 0.01 * height, text
+        rows.setdefault(round(box.y0 + box.y1), []).append((box.x0, box.x1, text))
+    for row in rows.values():
+        row.sort()
+        for (_, end, left), (start, _, right) in pairwise(row):
+            assert end < start, (left, right)

@@ -5,6 +5,7 @@
 rule design:
     input:
         file=design_input,
+        points=design_points,
         texts=["src/gelpump/design/schema.yaml", "src/gelpump/design/sheet.html.j2"],
         src=modules(
             *(name for name in PULSE if name != "tube/production"),
@@ -12,6 +13,7 @@ rule design:
             "bead/dataset",
             "bead/lens",
             "config",
+            "materials/measured",
             "tables",
             "text",
             "tube/budget",
@@ -22,6 +24,7 @@ rule design:
             "design/dataset",
             "design/description",
             "design/device",
+            "design/gel_errors",
             "design/inverse",
             "design/material",
             "design/result",

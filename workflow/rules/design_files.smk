@@ -34,3 +34,9 @@ def design_input(wildcards):
     if workflow.is_main_process:
         checked_design(wildcards)
     return design_file(wildcards)
+
+
+def design_points(wildcards):
+    """The file that the design's gel was fitted to, if it is a measured one."""
+    block = checked_design(wildcards)
+    return MEASURED.get(str(block.get("gel")), []) if isinstance(block, dict) else []

@@ -94,8 +94,9 @@ def _provenance(snakemake):
 
 
 def _leave_record(record, log):
-    path = log.parent.parent / "provenance" / f"{log.stem}.json"
-    path.parent.mkdir(exist_ok=True)
+    logs = Path("results/logs")
+    path = logs.with_name("provenance") / log.relative_to(logs).with_suffix(".json")
+    path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_name(f".{path.name}.partial")
     partial.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
     partial.replace(path)

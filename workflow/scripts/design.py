@@ -7,14 +7,24 @@ with job(snakemake) as provenance:
     import io
 
     from gelpump import netcdf, tables
-    from gelpump.design import dataset, description, sheet
+    from gelpump.design import dataset, description, gel_errors, sheet
     from gelpump.figures import design as drawing
     from gelpump.figures import style
+    from gelpump.materials import measured
     from gelpump.text import write_text
 
     params, name = snakemake.params, snakemake.wildcards.name
     design = description.checked(name, params.block, params.gels)
-    data = dataset.assemble(design, params.numerics[design.kind])
+    errors = None
+    if snakemake.input.points:
+        gel = params.gels[params.block["gel"]]
+        points = measured.read(snakemake.input.points)
+        fit = measured.fit(params.block["gel"], points, gel["temperature_range"])
+        try:
+            errors = gel_errors.gel_errors(name, params.block, gel, fit)
+        except description.DesignError as refusal:
+            errors = refusal
+    data = dataset.assemble(design, params.numerics[design.kind], errors)
     netcdf.write(
         data,
         snakemake.output.data,
@@ -22,7 +32,7 @@ with job(snakemake) as provenance:
         parameters={"design": params.block, "gels": params.gels, "numerics": params.numerics},
         provenance=provenance,
     )
-    headings = ("key", "meaning", "value", "unit", "uncertainty", "source")
+    headings = ("key", "meaning", "value", "unit", "uncertainty", "gel error", "source")
     columns = [tables.Column(each, each) for each in headings]
     write_text(tables.csv(columns, dataset.csv_rows(data)), snakemake.output.table)
     with style.styled():

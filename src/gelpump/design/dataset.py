@@ -1,18 +1,26 @@
 """Everything known of a design in one dataset, from which the sheet and the CSV are made."""
 
+from collections.abc import Mapping
+
 import xarray as xr
 
 from gelpump.design import units, validity
-from gelpump.design.description import Design
+from gelpump.design.description import Design, DesignError
 from gelpump.design.device import results
+from gelpump.design.gel_errors import gel_note
 from gelpump.design.inverse import ranges
 from gelpump.design.result import AMBER, GREEN, LIGHTS
 from gelpump.design.solve import solve
 
 
-def assemble(design: Design, numerics) -> xr.Dataset:
+def assemble(
+    design: Design, numerics, gel_errors: Mapping[str, float] | DesignError | None = None
+) -> xr.Dataset:
     """The solved device with scalars for each number, light_* for each assumption and range_* for
-    each answer to what is wanted (dims ``lights``: no light red, all green; ``end``)."""
+    each answer to what is wanted (dims ``lights``: no light red, all green; ``end``).
+
+    ``gel_errors`` are those of a measured gel (`gelpump.design.gel_errors`), or why there are none.
+    """
     data, measured = solve(design, numerics)
     found = results(design) + measured
     lights = validity.before_solving(design) + validity.after_solving(design, data)
@@ -31,6 +39,10 @@ def assemble(design: Design, numerics) -> xr.Dataset:
         if each.uncertainty is not None:
             extra[f"{each.key}_uncertainty"] = _scalar(
                 each.uncertainty, each.unit, f"numerical uncertainty: {each.text}"
+            )
+        if isinstance(gel_errors, Mapping) and gel_errors.get(each.key):
+            extra[f"{each.key}_gel_error"] = _scalar(
+                gel_errors[each.key], each.unit, f"standard error of the measured gel: {each.text}"
             )
     for each in lights:
         extra[f"light_{each.criterion.key}"] = (
@@ -71,6 +83,7 @@ def assemble(design: Design, numerics) -> xr.Dataset:
         kind=design.kind,
         design_title=design.title,
         material=f"{design.material.name}: {design.material.derived}",
+        **({} if gel_errors is None else {"gel_note": gel_note(gel_errors)}),
     )
 
 
@@ -100,20 +113,22 @@ def answers(data: xr.Dataset) -> list[str]:
 
 
 def csv_rows(data: xr.Dataset):
-    """Rows of key, meaning, value, unit, uncertainty, source, one a number, light or range end."""
+    """Rows of key, meaning, value, unit, numerical uncertainty, standard error of the measured gel,
+    source, one a number, light or range end."""
     for key in numbers(data):
         each = data[key]
-        error = f"{key}_uncertainty"
-        uncertainty = f"{float(data[error]):.3g}" if error in data else ""
-        yield (key, each.long_name, f"{float(each):.10g}", each.units, uncertainty,
-               each.source_equation)  # fmt: skip
+        errors = [
+            f"{float(data[error]):.3g}" if error in data else ""
+            for error in (f"{key}_uncertainty", f"{key}_gel_error")
+        ]
+        yield key, each.long_name, f"{float(each):.10g}", each.units, *errors, each.source_equation
     for key in lights(data):
         each = data[key]
-        yield key, each.long_name, LIGHTS[int(each)], "", "", f"{each.judged_by}; {each.limits}"
+        yield key, each.long_name, LIGHTS[int(each)], "", "", "", f"{each.judged_by}; {each.limits}"
     for key in answers(data):
         each = data[key]
         for row, asked in enumerate(("no light red", "all green")):
             for column, end in enumerate(("low", "high")):
                 yield (f"{key}_{end}", f"{each.long_name}, {asked}",
-                       f"{float(each[row, column]):.10g}", each.units, "",
+                       f"{float(each[row, column]):.10g}", each.units, "", "",
                        (each.set_by, each.set_by_green)[row].split("; ")[column])  # fmt: skip

@@ -99,7 +99,7 @@ def tube_results(design: Design) -> list[Result]:
     t_99, t_back = (units.si(t_pore * tau, "s") for tau in (tau_99, back))
     return [
         Result("ell", "inner over outer radius", "ell", float(tube.ell), "1", "section 3.3"),
-        Result("eps", "slenderness a_1/L", "eps", float(tube.eps), "1", "section 3.3"),
+        Result("eps", "slenderness a₁/L", "eps", float(tube.eps), "1", "section 3.3"),
         Result("wall", "thickness of the wall, swollen", "a_1 - a_0", units.si(wall, "m"), "m",
                "section 3.1"),
         *material_results(design),

@@ -96,7 +96,7 @@ def sentence(each: Range) -> str:
 
     def said(value):
         number, unit = units.shown(value, each.unit)
-        return f"{number:.4g} {units.readable(unit)}".strip()
+        return f"{units.told(number, 4)} {units.readable(unit)}".strip()
 
     if not each.feasible:
         return (

@@ -29,7 +29,7 @@ def shown(value: float, unit: str) -> tuple[float, str]:
 def said(value: float, unit: str, digits: int = 4) -> str:
     """A number with its unit."""
     number, chosen = shown(value, unit)
-    return f"{number:.{digits}g} {chosen}".strip()
+    return f"{units.told(number, digits)} {chosen}".strip()
 
 
 def subtitle(data) -> str:
@@ -42,13 +42,28 @@ def number_rows(data) -> list[tuple[str, str, str, str]]:
     rows = []
     for key in dataset.numbers(data):
         each = data[key]
-        number, unit = shown(float(each), each.units)
-        error = ""
-        if f"{key}_uncertainty" in data and float(each):
-            relative = abs(float(data[f"{key}_uncertainty"]) / float(each))
-            error = f"± {relative:.0e} relative"
-        rows.append((each.long_name, f"{number:.4g} {unit}".strip(), error, each.source_equation))
+        errors = [
+            f"{of} {units.told(100 * abs(float(data[error]) / float(each)), 2)} %"
+            for of, error in (("±", f"{key}_uncertainty"), ("gel ±", f"{key}_gel_error"))
+            if error in data and float(each)
+        ]
+        rows.append(
+            (each.long_name, said(float(each), each.units), ", ".join(errors), each.source_equation)
+        )
     return rows
+
+
+def notes(data) -> list[str]:
+    """What has to be said beside the numbers."""
+    found = [data.attrs[key] for key in ("lumen_note", "gel_note") if key in data.attrs]
+    if dataset.answers(data):
+        said = "Ranges are of one parameter at a time, the others as designed"
+        if data.attrs["kind"] == "tube":
+            said += (
+                "; closeness and the lumen's pressure and flow are judged by building the change"
+            )
+        found.append(f"{said}.")
+    return found
 
 
 def light_rows(data) -> list[LightRow]:
@@ -75,15 +90,19 @@ def answer_rows(data) -> list[tuple[str, str, str]]:
         text = []
         for row in range(2):
             low, high = map(float, each[row])
-            text.append(
-                f"{said(low, each.units, 3)} to {said(high, each.units, 3)}"
-                if low <= high
-                else "none"
-            )
+            text.append(_span(low, high, each.units) if low <= high else "none")
         below, above = each.set_by.split("; ")
         loose = f"{text[0]} (set by: {below}; {above})"
         rows.append((each.long_name, loose, f"all green: {text[1]}"))
     return rows
+
+
+def _span(low, high, unit):
+    numbers, chosen = zip(*(shown(end, unit) for end in (low, high)), strict=True)
+    ends = [units.told(number, 3) for number in numbers]
+    if chosen[0] == chosen[1]:
+        return f"{ends[0]} to {ends[1]} {chosen[1]}".strip()
+    return f"{ends[0]} {chosen[0]} to {ends[1]} {chosen[1]}"
 
 
 def html(data, svg: str) -> str:
@@ -99,5 +118,6 @@ def html(data, svg: str) -> str:
         lights=light_rows(data),
         question=question(data) if "wanted_response_time" in data else "",
         answers=answer_rows(data),
+        notes=notes(data),
         svg=svg[svg.index("<svg") :],
     )

@@ -68,7 +68,51 @@ def solve_tube(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Resu
     for coarse, here, fine in zip(*measured, strict=True):
         error = float(convergence_index(coarse.value, here.value, fine.value))
         found.append(Result(**{**vars(here), "uncertainty": error}))
-    return runs[1], found
+    return runs[1].assign_attrs(lumen_note=lumen_note(runs[1])), found
+
+
+def far_parts(wall) -> dict[str, tuple[float, float]]:
+    """V far ahead, at the last time: what the wall sheds into the lumen behind the front, and what
+    its source does ahead of it, in units of `gelpump.tube.lumen`; both forms, without the tube's
+    own motion, which only the continuous one has."""
+    from gelpump.tube.flow import lumen_share
+
+    ell = float(np.ravel(wall.ell)[0])
+    gain = 1 + lumen_share(ell) * (1 - ell**2) / ell**2
+    sources = {
+        "printed": wall.integral(wall.F * np.cbrt(wall.Phi1)) / 2,
+        "continuous": gain * wall.Phi1_face[:, -1:] ** (2 / 3)
+        * wall.integral(wall.F * wall.Phi1 ** (-5 / 3)),
+    }  # fmt: skip
+    front = int(np.argmax(sources["printed"][-1]))
+    return {
+        form: (float(V[-1, front]), float(V[-1, -1] - V[-1, front])) for form, V in sources.items()
+    }
+
+
+def lumen_note(data: xr.Dataset) -> str:
+    """Why the two forms of the lumen's flow differ far ahead, with the numbers of this tube."""
+    last, said = data.isel(t=-1), {}
+    for form in FORMS:
+        behind, ahead = (1e3 * float(last[f"far_{part}_{form}"]) for part in ("behind", "ahead"))
+        volume = float(last[f"pumped_volume_{form}"])
+        number, unit = units.shown(abs(volume), "m^3")
+        said[form] = (
+            f"{units.told(behind)} {'−' if ahead < 0 else '+'} {units.told(abs(ahead))} mm/s, and "
+            f"{units.told(number)} {units.readable(unit)} go {'out' if volume > 0 else 'in'}"
+        )
+    printed, continuous = (float(last[f"flow_far_{form}"]) for form in FORMS)
+    verdict = (
+        "they differ in sign here, so the model does not decide which way water is pumped"
+        if printed * continuous < 0
+        else "they agree in sign here"
+    )
+    return (
+        "Far ahead, the lumen's flow is what the wall sheds into it behind the front less what the "
+        "wall takes up ahead of it. As printed (eqn:lumen; both weighed by Φ₁ to the power 1/3) "
+        f"that is {said['printed']} in the pulse; with water conserved at the lumen's moving edge "
+        f"(by Φ₁ to the power −5/3) {said['continuous']}. Both are given: {verdict}."
+    )
 
 
 def in_si(design: Design, pulse: xr.Dataset) -> xr.Dataset:
@@ -124,6 +168,15 @@ def in_si(design: Design, pulse: xr.Dataset) -> xr.Dataset:
         data["polymer_fraction"] = variable(
             ("t", "cell"), design.material.phi_00 * Phi, "1", "polymer volume fraction"
         )
+    for form, parts in far_parts(wall).items():
+        for part, value in zip(("behind", "ahead"), parts, strict=True):
+            data[f"far_{part}_{form}"] = variable(
+                (),
+                L / time * value,
+                "m/s",
+                f"velocity far ahead at the last time from the wall's water {part} "
+                f"{'the' if part == 'behind' else 'of the'} front, {lumen.MEANING[form]}",
+            )
     t = time * one.tau.values
     places = {"front": "at the front", "far": "far ahead"}
     for form in FORMS:

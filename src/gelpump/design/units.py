@@ -94,9 +94,23 @@ def shown(value: float, unit: str) -> tuple[float, str]:
     return number, choice
 
 
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def told(value: float, digits: int = 3) -> str:
+    """A number as it is typeset: with a power of ten where it is very large or small."""
+    rounded = float(f"{value:.{digits}g}")
+    if rounded == 0 or not math.isfinite(rounded) or 1e-3 <= abs(rounded) < 1e5:
+        return f"{rounded:.10g}".replace("-", "−")
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
+    power = "10" + str(int(exponent)).translate(RAISED)
+    signed = {"1": power, "-1": f"−{power}"}
+    return signed.get(mantissa, f"{mantissa} × {power}".replace("-", "−"))
+
+
 def readable(unit: str) -> str:
     """A unit as it is typeset: superscripts for exponents, the Greek letter for micro."""
     text = re.sub(r"^u(?=[A-Za-z])|(?<=[ /])u(?=[A-Za-z])", "µ", unit)
-    raised = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-    text = re.sub(r"(?:\^|\*\*)(-?\d)", lambda m: m[1].translate(raised), text)
+    text = re.sub(r"(?:\^|\*\*)(-?\d)", lambda m: m[1].translate(RAISED), text)
     return {"minute": "min", "hour": "h", "day": "d", "m/s⁰.5": "m/√s"}.get(text, text)

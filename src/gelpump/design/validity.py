@@ -10,8 +10,9 @@ from gelpump.design import units
 from gelpump.design.description import Design
 from gelpump.design.device import diffusivity, lewis_number
 from gelpump.design.result import Criterion, Light
+from gelpump.design.units import told
 
-SLENDER = Criterion("slenderness", "the tube is slender", "eps²", 0.01, 0.1, "section 3.3")
+SLENDER = Criterion("slenderness", "the tube is slender", "ε²", 0.01, 0.1, "section 3.3")
 LEWIS = Criterion("lewis", "heat is faster than water in the gel", "Le", 10.0, 2.0,
                   "section 3.5", large=True)  # fmt: skip
 COUPLING = Criterion("coupling", "lumen and wall are uncoupled", "G", 1e-2, 1e-1, "appendix B")
@@ -80,16 +81,18 @@ def before_solving(design: Design) -> list[Light]:
             Light(
                 SLENDER,
                 (a_1 / L) ** 2,
-                f"eps = a_1/L = {a_1 / L:.3g}; corrections are of order eps²",
+                f"ε = a₁/L = {told(a_1 / L)}; corrections are of order ε²",
             ),
-            Light(COUPLING, k / a_1**2, f"G = k/a_1² = {k / a_1**2:.2g}"),
+            Light(COUPLING, k / a_1**2, f"G = k/a₁² = {told(k / a_1**2, 2)}"),
         ]
     else:
         thickness, what = design.si("radius"), "the bead"
+    pores = thickness / k**0.5
     found += [
-        Light(LEWIS, Le, f"Le = {kappa:.2g}/{D:.2g} = {Le:.3g}; flow moves heat by about 1/Le"),
-        Light(CONTINUUM, thickness / k**0.5,
-              f"{what} is {thickness / k**0.5:.2g} times √k = {k**0.5 * 1e9:.2g} nm thick"),
+        Light(LEWIS, Le, f"Le = κ/D = {told(kappa, 2)}/{told(D, 2)} = {told(Le)}; "
+              "flow moves heat by about 1/Le"),
+        Light(CONTINUUM, pores,
+              f"{what} is {told(pores, 2)} times √k = {told(k**0.5 * 1e9, 2)} nm thick"),
         *_gel_lights(design),
     ]  # fmt: skip
     return _sorted(found)
@@ -103,7 +106,9 @@ def _gel_lights(design: Design) -> list[Light]:
         ]
     least, phi = smallest_diffusivity(design)
     if least > 0:
-        reason = f"least D is {least:.3g} of the swollen one, at φ = {phi:.3g}, {design.T_hot:g} K"
+        reason = (
+            f"least D is {told(least)} of the swollen one, at φ = {phi:.3g}, {design.T_hot:g} K"
+        )
     else:
         roots = material.gel.spinodal_polymer_fractions(material.hot)
         reason = (
@@ -121,7 +126,7 @@ def _gel_lights(design: Design) -> list[Light]:
         reason = (
             "the gel's own D is negative on the way, tangents hide it"
             if own is None
-            else f"t_99 is {mine:.3g} s with the tangents, {own:.3g} s with the gel's own D"
+            else f"t₉₉ is {told(mine)} s with the tangents, {told(own)} s with the gel's own D"
         )
         found.append(Light(LINEAR, min(value, 1e9), reason))
     return found
@@ -137,6 +142,7 @@ def after_solving(design: Design, data) -> list[Light]:
     )
     a_0, L, mu = design.si("a_0"), design.si("heated_length"), design.si("viscosity")
     pressure = 8 * mu * peak * L / a_0**2
+    speed = f"{told(1e3 * peak, 2)} mm/s"
     reynolds = design.si("density") * peak * a_0 / mu * a_0 / L
     front = float(data.front_polymer_ratio[-1])
     Phi_inf = design.material.Phi_inf
@@ -146,9 +152,9 @@ def after_solving(design: Design, data) -> list[Light]:
                   f"{share:.0%} of the heated length is more than a tenth of the jump away from "
                   f"Φ₀; at the front Φ₁ = {front:.3g} lies between 1 and {Phi_inf:.3g} always"),
             Light(LUMEN_PRESSURE, pressure / design.material.Pi_00,
-                  f"Poiseuille flow at {peak:.2g} m/s over L needs {pressure:.2g} Pa, "
-                  f"Π₀₀ = {design.material.Pi_00:.2g} Pa"),
-            Light(REYNOLDS, reynolds, f"ρ v a_0²/(mu_l L) = {reynolds:.2g} at v = {peak:.2g} m/s"),
+                  f"Poiseuille flow at {speed} over L needs {told(pressure, 2)} Pa, "
+                  f"Π₀₀ = {told(design.material.Pi_00, 2)} Pa"),
+            Light(REYNOLDS, reynolds, f"ρ v a₀²/(µ L) = {told(reynolds, 2)} at v = {speed}"),
         ]
     )  # fmt: skip
 

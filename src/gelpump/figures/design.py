@@ -36,9 +36,14 @@ def _page(data):
     part = fig.add_gridspec(1, 1, left=0.07, right=0.93, bottom=0.655, top=0.905)
     inner = part[0].subgridspec(2, 2, height_ratios=[1.0, 1.15], hspace=0.5, wspace=0.28)
     _draw(fig, data, inner)
-    y = _rows(fig, 0.61, "Numbers", sheet.number_rows(data), (0.07, 0.47, 0.66, 0.93))
+    y = _rows(fig, 0.61, "Numbers", sheet.number_rows(data), (0.07, 0.46, 0.47, 0.93))
     y = _lights(fig, y - LINE, data)
-    _wanted(fig, y - LINE, data)
+    y = _wanted(fig, y - LINE, data)
+    for note in sheet.notes(data):
+        for line in textwrap.wrap(note, 178):
+            fig.text(0.07, y, line, fontsize=6.8, va="center")
+            y -= 0.78 * LINE
+        y -= 0.25 * LINE
     return fig
 
 
@@ -58,10 +63,10 @@ def _rows(fig, y, heading, rows, columns):
     y = _heading(fig, y, heading)
     for text, value, error, source in rows:
         fig.text(columns[0], y, text, fontsize=7.5, va="center")
-        fig.text(columns[1] + 0.1, y, value, fontsize=7.5, va="center", ha="right")
-        fig.text(columns[1] + 0.11, y, error, fontsize=7.5, va="center", color=style.GREY)
+        fig.text(columns[1], y, value, fontsize=7.5, va="center", ha="right")
+        fig.text(columns[2], y, error, fontsize=7.5, va="center", color=style.GREY)
         fig.text(columns[3], y, source, fontsize=7, va="center", ha="right", color=style.GREY)
-        y -= 0.82 * LINE
+        y -= 0.78 * LINE
     return y
 
 
@@ -86,13 +91,14 @@ def _lights(fig, y, data):
 def _wanted(fig, y, data):
     rows = sheet.answer_rows(data)
     if not rows:
-        return
+        return y
     y = _heading(fig, y, sheet.question(data))
     for text, loose, strict in rows:
         fig.text(0.07, y, text, fontsize=7.5, va="center")
-        fig.text(0.325, y, loose, fontsize=6.8, va="center")
+        fig.text(0.325, y, loose, fontsize=6.6, va="center")
         fig.text(0.93, y, strict, fontsize=6.5, va="center", ha="right", color=style.GREY)
         y -= 0.85 * LINE
+    return y - 0.3 * LINE
 
 
 def _draw(fig, data, grid=None):
@@ -117,7 +123,7 @@ def _coloured(data):
 
 
 def _section(fig, ax, data):
-    half = int(np.abs(data.front_position - data.front_position[-1] / 2).argmin())
+    half = int(np.abs(data.front_position - data.front_position[-1] / 2).values.argmin())
     values, label = _coloured(data)
     now = data.isel(t=half)
     z = 1e3 * now.z_face.values
@@ -160,7 +166,7 @@ def _front(ax, data):
 
 
 def _lumen(ax, data):
-    marks = [int(np.abs(data.front_position - share * data.front_position[-1]).argmin())
+    marks = [int(np.abs(data.front_position - share * data.front_position[-1]).values.argmin())
              for share in (0.25, 0.5, 1.0)]  # fmt: skip
     last = 1e3 * float(data.front_position[-1])
     for index, colour in zip(marks, style.shades(style.LATER, len(marks)), strict=True):
@@ -172,8 +178,9 @@ def _lumen(ax, data):
                     label=f"{seconds:.3g} {unit}" if form == "printed" else None)  # fmt: skip
     ax.axhline(0, color=style.GREY, linewidth=0.5)
     ax.set(xlabel="$z$ (mm)", ylabel="lumen $v_z$ (mm/s)", xlim=(0, 1.1 * last))
-    ax.set_title("solid: as printed; dashed: water conserved", loc="left")
-    ax.legend()
+    for line, text in (("-", "as printed"), ("--", "water conserved")):
+        ax.plot([], [], line, color=style.GREY, label=text)
+    _legend_above(ax)
 
 
 def _states(fig, ax, data):
@@ -192,12 +199,16 @@ def _states(fig, ax, data):
             vmin=values.min(), vmax=values.max(), cmap=style.POLYMER_FRACTION, rasterized=True,
         )  # fmt: skip
         ax.plot(x[-1], r[-1] * np.sin(angle), color="#333333", linewidth=0.6)
-        seconds, unit = sheet.shown(float(data.t[index]), "s") if index else (0.0, "s")
-        ax.text(centre, -1.2e3 * a_0, f"{seconds:.3g} {unit}", ha="center", va="top", fontsize=8)
-        centre += 2.6e3 * a_0
-    ax.set(aspect="equal", ylabel="$r$ (mm)", ylim=(-1.75e3 * a_0, 1.15e3 * a_0), xticks=[])
-    ax.set_title("sections through the bead", loc="left")
+        when = sheet.said(float(data.t[index]), "s", 3) if index else "0 s"
+        size = sheet.said(float(data.radius[index]), "m", 3)
+        ax.text(centre, -1.25e3 * a_0, f"{when}\n{size}", ha="center", va="top", fontsize=8)
+        centre += 5.2e3 * a_0
+    ax.set(aspect="equal", xlim=(-1.2e3 * a_0, centre - 4.0e3 * a_0),
+           ylim=(-2.3e3 * a_0, 1.05e3 * a_0))  # fmt: skip
+    ax.set_axis_off()
+    ax.set_title("sections through the bead, each with its time and radius", loc="left")
     fig.colorbar(mesh, ax=ax, label=label, pad=0.02, aspect=12)
+    ax.set_anchor("W")  # the colour bar has moved it
 
 
 def _radius(ax, data):
@@ -219,8 +230,15 @@ def _profiles(ax, data):
     values, label = _coloured(data)
     indices = np.unique(np.linspace(2, data.sizes["t"] - 1, 6).astype(int))
     for index, colour in zip(indices, style.shades(style.LATER, len(indices)), strict=True):
-        seconds, unit = sheet.shown(float(data.t[index]), "s")
-        ax.plot(1e3 * data.r[index], values[index], color=colour, label=f"{seconds:.2g} {unit}")
+        ax.plot(1e3 * data.r[index], values[index], color=colour,
+                label=sheet.said(float(data.t[index]), "s", 2))  # fmt: skip
     ax.set(xlabel="$r$ (mm)", ylabel=label, xlim=(0, None))
-    ax.legend(fontsize=7, ncols=2)
-    ax.set_title("profiles", loc="left")
+    _legend_above(ax)
+
+
+def _legend_above(ax):
+    """In one line above the axes, where it hides nothing."""
+    ax.legend(
+        loc="lower left", bbox_to_anchor=(-0.02, 0.98), ncols=6, fontsize=7, handlelength=1.1,
+        handletextpad=0.4, columnspacing=0.8, borderpad=0.2,
+    )  # fmt: skip

@@ -11,7 +11,8 @@ def profile(path):
     return yaml.safe_load((PROJECT / path / "config.yaml").read_text())
 
 
-def test_nothing_is_lost_whichever_way_the_profile_is_named():
-    """--workflow-profile takes the place of profiles/default, --profile stands behind it."""
+def test_the_two_profiles_say_different_things():
+    """Both are loaded, and where both said something, profiles/default would win."""
     default, slurm = profile("profiles/default"), profile("workflow/profiles/slurm")
-    assert default.items() <= slurm.items()
+    assert not set(default) & set(slurm)
+    assert slurm["executor"] == "slurm"

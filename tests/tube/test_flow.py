@@ -102,6 +102,22 @@ def test_flow_is_outwards_behind_and_inwards_ahead(pulse):
     assert (wall.axial_velocity <= rounding).all()
 
 
+def test_radial_flow_is_fastest_at_the_front(pulse):
+    """There |U_g| = 4 D |Phi_0 - Phi_1| Phi_1^(-2/3)/(eps^2 (1-ell)) with Phi_1 at Z_C, the larger
+    of both sides."""
+    wall, Phi = Wall.of(pulse), pulse.Phi1_front
+    sides = []
+    for stiffness, Phi_0 in ((pulse.Pi_ratio / pulse.Phi_inf, pulse.Phi_inf), (1.0, 1.0)):
+        D = stiffness * Phi + 4 / 3 * pulse.M * np.cbrt(Phi)
+        drive = np.abs(Phi_0 - Phi) / pulse.eps**2
+        sides.append((4 * D * drive * Phi ** (-2 / 3) / (1 - pulse.ell)).values)
+    exact = np.max(sides, axis=0)
+    in_cells = np.abs(wall.radial_velocity_printed(np.ones(1))[..., 0]).max(axis=-1)
+    error = np.abs(wall.largest_radial_velocity / exact - 1)
+    assert error.max() < 2.5e-3
+    assert error.max() < 0.1 * np.abs(in_cells / exact - 1).max()
+
+
 def test_shrinkage_is_the_change_of_the_material(pulse):
     """Volume shed, differenced in time, against the rate from DPhi_1/Dtau."""
     budget = water_budget(pulse)

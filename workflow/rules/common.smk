@@ -80,9 +80,9 @@ def config_blocks(wildcards):
 
 
 def config_block(job):
-    made_by = getattr(rules, job["rule"], None)
-    if made_by is None:
+    if not rules.has(job["rule"]):
         return None
+    made_by = getattr(rules, job["rule"])
     wildcards = SimpleNamespace(**job["wildcards"])
     try:
         block = {k: v(wildcards) if callable(v) else v for k, v in made_by.params.items()}

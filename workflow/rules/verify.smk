@@ -67,7 +67,7 @@ rule ro_crate:
 # declare no output either, so that they run whenever they are asked for.
 rule verify:
     input:
-        src=modules(*VERIFY, "verify/conventions", "verify/table"),
+        src=modules(*VERIFY, "verify/conventions", "verify/examination", "verify/table"),
     log:
         "results/logs/verify.log",
     params:

@@ -25,8 +25,16 @@ with job(snakemake):
     if problems:
         raise SystemExit("the reference is kept:\n  " + "\n  ".join(map(str, problems)))
     values = Path(params.values)
-    old = json.loads(values.read_text(encoding="utf-8")) if values.exists() else {"values": {}}
-    lines = reference.changes(old["values"], new)
-    write_json({"numbers_digest": build.manifest["numbers_digest"], "values": new}, values)
+    old = {"values": {}, "figures": {}}
+    if values.exists():
+        old |= json.loads(values.read_text(encoding="utf-8"))
+    shown = reference.of_figures(build.figure_numbers())
+    lines = reference.changes(old["values"], new) + reference.changes(old["figures"], shown)
+    digests = {
+        "numbers_digest": build.manifest["numbers_digest"],
+        "shown_digest": build.shown_digest,
+    }
+    write_json({**digests, "values": new, "figures": shown}, values)
+    count = len(new) + len(shown)
 
-print(*lines, f"{len(new)} numbers, {len(lines)} of them changed: {values}", sep="\n", flush=True)
+print(*lines, f"{count} numbers, {len(lines)} of them changed: {values}", sep="\n", flush=True)

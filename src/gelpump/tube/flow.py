@@ -91,6 +91,8 @@ class Wall:
     F: np.ndarray
     flux: np.ndarray
     Z_face: np.ndarray
+    behind: int
+    """Number of cells behind the front, and so the front's face."""
 
     @classmethod
     def of(cls, pulse):
@@ -112,6 +114,7 @@ class Wall:
             F=pulse.F.values,
             flux=pulse.flux.values,
             Z_face=Z_face,
+            behind=int(pulse.hot.sum()),
         )
 
     @property
@@ -156,8 +159,19 @@ class Wall:
 
     @property
     def largest_radial_velocity(self):
-        """Largest |U_g| of eqn:ug with eqn:phi2, which is at the outer edge."""
-        return np.abs(self.radial_velocity_printed(np.ones(1))[..., 0]).max(axis=-1)
+        """Largest |U_g| of eqn:ug with eqn:phi2: at the outer edge, in a cell or on a side of the
+        front, where it jumps and the nearest two cells are extrapolated to."""
+        speed = np.abs(self.radial_velocity_printed(np.ones(1))[..., 0])
+        sides = [
+            self._at_front(speed, self.behind - 1, self.behind - 2),
+            self._at_front(speed, self.behind, self.behind + 1),
+        ]
+        return np.max([speed.max(axis=-1), *sides], axis=0)
+
+    def _at_front(self, values, nearest, next_one):
+        length = self.cell_length
+        share = length[..., nearest] / (length[..., nearest] + length[..., next_one])
+        return values[..., nearest] + share * (values[..., nearest] - values[..., next_one])
 
     @property
     def radial_to_axial_velocity(self):

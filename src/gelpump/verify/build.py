@@ -10,6 +10,7 @@ from gelpump import netcdf
 from gelpump.provenance import file_digest
 from gelpump.verify import integrity
 from gelpump.verify.crate import crate
+from gelpump.verify.manifest import records
 from gelpump.verify.problem import Problem
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ class Build:
             self.manifest = _read(MANIFEST)
         except FileNotFoundError as missing:
             raise FileNotFoundError(NO_BUILD) from missing
-        self.records = [_read(path) for path in sorted((RESULTS / "provenance").glob("*.json"))]
+        self.records = list(records(RESULTS / "provenance").values())
         self.digest = cache(_digest)
 
     def problems(self, blocks: Mapping[str, str | None]) -> dict[str, list[Problem]]:
@@ -71,6 +72,16 @@ class Build:
             except (OSError, ValueError) as failure:
                 problems.append(Problem(path, "unreadable", str(failure)))
         return data, problems
+
+    def figure_numbers(self) -> list[dict[str, Any]]:
+        """The key numbers of the figures; none if they are not there."""
+        path = RESULTS / "tables/figure_numbers.json"
+        return _read(path) if path.exists() else []
+
+    @property
+    def shown_digest(self) -> str:
+        """Digest of what of the configuration decides which key numbers there are."""
+        return self.manifest["jobs"]["claims"]["config_digest"]
 
 
 def _read(path: Path) -> Any:

@@ -4,7 +4,9 @@ Each job leaves a record of its ingredients and outputs when it ends.  The manif
 from there, not from the files as they are when it is written, and holds the files against them.
 """
 
+import json
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 import gelpump
@@ -24,7 +26,8 @@ def manifest(
     records: Mapping[str, Mapping[str, Any]],
     config: Mapping[str, Any],
 ) -> dict[str, Any]:
-    """The manifest of the outputs ``found`` (SHA-256 by path), from the records of the jobs.
+    """The manifest of the outputs ``found`` (SHA-256 by path), from the records of the jobs, oldest
+    first.
 
     ValueError, naming all of them, if outputs have no record or are not what their job made.
     """
@@ -65,10 +68,14 @@ def manifest(
 def by_output(
     records: Iterable[Mapping[str, Any]], found: Mapping[str, str | None]
 ) -> dict[str, Mapping[str, Any]]:
-    """The record of the job that made each file found; of several, one that made it as it is."""
-    made: dict[str, Mapping[str, Any]] = {}
-    for record in records:
-        for path, output in record["outputs"].items():
-            if path in found and (path not in made or output["sha256"] == found[path]):
-                made[path] = record
-    return made
+    """The record of the job that made each file found: of several, the last.
+
+    A rule that was renamed leaves two, and a file that the older one made was put back by hand.
+    """
+    return {path: record for record in records for path in record["outputs"] if path in found}
+
+
+def records(folder: Path) -> dict[str, Mapping[str, Any]]:
+    """The records that jobs have left in ``folder``, by their name, oldest first."""
+    files = sorted(folder.glob("*.json"), key=lambda path: (path.stat().st_mtime_ns, path.name))
+    return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in files}

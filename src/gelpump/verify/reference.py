@@ -11,7 +11,7 @@ uncertainty, which comes from
 Two builds that are both within their uncertainty differ by at most twice that.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -71,11 +71,26 @@ def evaluated(listed: Sequence[Mapping[str, Any]], data: Datasets) -> tuple[Valu
         except UNREADABLE as failure:
             problems.append(Problem(label, "not there", f"{type(failure).__name__}: {failure}"))
             continue
-        values[label] = {
-            "value": float(f"{value:.12g}"),
-            "tolerance": float(f"{tolerance + ROUND_OFF * abs(value):.2g}"),
-        }
+        values[label] = _entry(value, tolerance)
     return values, problems
+
+
+def of_figures(rows: Iterable[Mapping[str, Any]]) -> Values:
+    """Value and tolerance of each number of ``figure_numbers.json``."""
+    values = {}
+    for row in rows:
+        numbers, doubts = np.atleast_1d(row["value"]), np.atleast_1d(row["uncertainty"])
+        for i, (value, doubt) in enumerate(zip(numbers, doubts, strict=True), start=1):
+            rank = f", {i} of {numbers.size}" if numbers.size > 1 else ""
+            values[f"{row['figure']}: {row['quantity']}{rank}"] = _entry(value, SAFETY * doubt)
+    return values
+
+
+def _entry(value: float, tolerance: float) -> dict[str, float]:
+    return {
+        "value": float(f"{value:.12g}"),
+        "tolerance": float(f"{tolerance + ROUND_OFF * abs(value):.2g}"),
+    }
 
 
 def compared(reference: Values, here: Values) -> tuple[list[Row], list[Problem]]:

@@ -1,0 +1,56 @@
+"""All checks of the build below the working directory: what `snakemake verify` runs."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+import yaml
+
+from gelpump.verify import conventions, reference
+from gelpump.verify.build import Build
+from gelpump.verify.problem import Problem
+
+
+class Examination(NamedTuple):
+    """Problems by check, every number beside the reference's, and what was not done."""
+
+    checks: dict[str, list[Problem]]
+    rows: list[reference.Row]
+    notes: list[str]
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is wrong."""
+        return not any(self.checks.values())
+
+
+def examine(blocks: Mapping[str, str | None], quantities: Path, values: Path) -> Examination:
+    """Examine the build; FileNotFoundError if there is none.
+
+    blocks: digest of what each job takes from the configuration now.  quantities and values: files
+    of the numbers that are compared, and of the reference.
+    """
+    build = Build()
+    checks = build.problems(blocks)
+    checks["datasets follow CF-1.11"] = conventions.problems(build.dataset_files())
+    data, checks["datasets can be read"] = build.datasets()
+    known = json.loads(values.read_text(encoding="utf-8"))
+    if known["numbers_digest"] != build.manifest["numbers_digest"]:
+        note = (
+            "the numbers were NOT compared: the reference is for the paper's configuration "
+            f"(digest {known['numbers_digest'][:12]}), this build has another one "
+            f"(digest {build.manifest['numbers_digest'][:12]})."
+        )
+        return Examination(checks, [], [note])
+    listed = yaml.safe_load(quantities.read_text(encoding="utf-8"))
+    here, absent = reference.evaluated(listed, data)
+    rows, differing = reference.compared(known["values"], here)
+    checks["numbers agree with the reference"] = absent + differing
+    if known.get("shown_digest") != build.shown_digest:
+        note = "the figures' key numbers were NOT compared: this build shows other ones."
+        return Examination(checks, rows, [note])
+    shown = reference.of_figures(build.figure_numbers())
+    more, differing = reference.compared(known["figures"], shown)
+    checks["figures' key numbers agree with the reference"] = differing
+    return Examination(checks, rows + more, [])

@@ -18,7 +18,7 @@ FIGURES = expand(
         "fig13_osmotic",
         "fig14_equilibrium",
     ],
-    suffix=["pdf", "png", "svg"],
+    suffix=["pdf", "png", "svg", "csv"],
 )
 
 

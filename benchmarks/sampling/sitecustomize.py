@@ -1,7 +1,7 @@
 """Samples every Python process whose PYTHONPATH holds this folder; see `benchmarks.profile`.
 
 Python imports this module by its name before anything else.  Every few milliseconds of CPU time the
-stack of the main thread is given the CPU time of the process since the last sample: a long call
+stack of each thread is given the CPU time that the thread took since the last sample: a long call
 into C is one heavy sample of the Python function that made it.  What was gathered is left in the
 folder that GELPUMP_PROFILE names when the process ends.
 """
@@ -12,6 +12,7 @@ import os
 import resource
 import signal
 import sys
+import threading
 import time
 
 INTERVAL = 0.004  # s of CPU time; the kernel's clock does not tick much faster
@@ -20,19 +21,36 @@ INTERVAL = 0.004  # s of CPU time; the kernel's clock does not tick much faster
 def _begin(folder: str) -> None:
     start = latest = time.process_time()  # all of it was the interpreter's own start
     born, process, sampling, told = time.monotonic(), os.getpid(), 0.0, False
+    main = threading.get_ident()
+    clocks, own = {main: start}, 0.0  # CPU time of each thread at the last sample; spent on that
     seconds: dict[tuple[str, ...], float] = {}
 
     def sample(_, frame):
-        nonlocal latest, sampling
+        nonlocal latest, sampling, own
         now = time.process_time()
-        stack = []
-        while frame is not None:
-            stack.append(f"{frame.f_code.co_filename}:{frame.f_code.co_name}")
-            frame = frame.f_back
-        key = tuple(reversed(stack))
-        seconds[key] = seconds.get(key, 0.0) + now - latest
+        frames = sys._current_frames() | ({main: frame} if frame else {})
+        seen = 0.0
+        for thread, top in frames.items():
+            reached = time.clock_gettime(time.pthread_getcpuclockid(thread))
+            spent = reached - clocks.get(thread, 0.0)
+            clocks[thread] = reached
+            spent = reached if spent < 0 else spent  # a new thread under an old one's name
+            if thread == main:
+                spent -= own
+            if spent <= 0.0:
+                continue
+            stack = []
+            while top is not None:
+                stack.append(f"{top.f_code.co_filename}:{top.f_code.co_name}")
+                top = top.f_back
+            key = tuple(reversed(stack))
+            seconds[key] = seconds.get(key, 0.0) + spent
+            seen += spent
+        if now - latest > seen:  # of threads that have ended
+            seconds[()] = seconds.get((), 0.0) + now - latest - seen
         latest = time.process_time()
-        sampling += latest - now
+        own = latest - now
+        sampling += own
 
     def leave():
         nonlocal told
@@ -59,6 +77,18 @@ def _begin(folder: str) -> None:
         leave()
         exit_now(status)
 
+    start_thread = threading.Thread.start
+
+    def start_unasked(thread):
+        # only the main thread answers signals, so the kernel must not send them to others
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGPROF])
+        try:
+            start_thread(thread)
+        finally:
+            if threading.get_ident() == main:
+                signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGPROF])
+
+    threading.Thread.start = start_unasked
     os._exit = leave_now  # which calls no exit handlers
     atexit.register(leave)
     signal.signal(signal.SIGPROF, sample)

@@ -18,6 +18,7 @@ SCRIPT = "/build/.snakemake/scripts/tmpab1_.fig09_relax.py:<module>"
 
 BURN = """
 import os
+import threading
 import time
 
 def burn(seconds):
@@ -26,9 +27,15 @@ def burn(seconds):
         pass
 
 def in_one_call():
-    sorted(range(4_000_000, 0, -1), key=str)
+    sorted(range(1_000_000, 0, -1), key=str)
+
+def elsewhere():
+    burn(0.5)
 
 burn(0.6)
+thread = threading.Thread(target=elsewhere)
+thread.start()
+thread.join()
 before = time.process_time()
 in_one_call()
 print(time.process_time() - before, flush=True)
@@ -49,11 +56,12 @@ def test_a_process_samples_itself(tmp_path, end):
     )
     (file,) = tmp_path.glob("*.json")
     record = json.loads(file.read_text(encoding="utf-8"))
-    spent = dict.fromkeys(("burn", "in_one_call"), 0.0)
+    spent = dict.fromkeys(("burn", "in_one_call", "elsewhere"), 0.0)
     for stack, seconds in record["stacks"]:
         for name in spent:
             spent[name] += seconds * (f"<string>:{name}" in stack)
-    assert spent["burn"] == pytest.approx(0.6, rel=0.1)
+    assert spent["burn"] == pytest.approx(1.1, rel=0.1)
+    assert spent["elsewhere"] == pytest.approx(0.5, rel=0.1)
     # a long call into C is not left out, though no sample is taken within it
     assert spent["in_one_call"] == pytest.approx(float(run.stdout), rel=0.2)
     sampled = sum(seconds for _, seconds in record["stacks"])

@@ -115,3 +115,16 @@ def test_the_closure_sees_late_and_relative_imports():
     assert SOURCE / "gelpump/materials/validation.py" in materials
     config = closure(SOURCE / "gelpump/config.py")
     assert SOURCE / "gelpump/materials/energy_based.py" in config  # imported in a function
+
+
+def test_nothing_follows_the_job_of_a_rule_that_makes_something():
+    """Such a job ends its interpreter with success, whatever a script would do or say later."""
+    rules = "".join(file.read_text("utf-8") for file in (PROJECT / "workflow/rules").glob("*.smk"))
+    following = set()
+    for script in sorted((PROJECT / "workflow/scripts").glob("*.py")):
+        statements = ast.parse(script.read_text("utf-8")).body
+        if any(isinstance(each, ast.With) for each in statements[:-1]):
+            following.add(script.stem)
+            [body] = re.findall(rf"^rule {script.stem}:\n((?:    .*\n|\n)+)", rules, re.MULTILINE)
+            assert "    output:" not in body, script.stem
+    assert "verify" in following  # which ends with its verdict

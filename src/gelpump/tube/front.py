@@ -15,7 +15,6 @@ A power law A = c (1-ell)^-n is fitted to the logarithms.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 WINDOW = 8.0  # in units of w: a wider one changes A by less than 1e-4
 
@@ -101,6 +100,8 @@ def profile(tube):
     Splines on either side of the front, where the slope jumps. Phi_1 is an even function of Z, and
     one beyond the last cell.
     """
+    from scipy.interpolate import CubicSpline
+
     hot, Z_C, front = tube.hot.values, float(tube.Z_C), float(tube.Phi1_front)
     Z, Phi = tube.Z.values - Z_C, tube.Phi1.values
     mirrored = -2 * Z_C - Z[0]

@@ -1,6 +1,7 @@
 """What sweeps cost, measured, and docs/sweeps.md made from it.
 
-python -m benchmarks.sweeps measure FILE.json  |  python -m benchmarks.sweeps page FILE.json FOLDER
+python -m benchmarks.sweeps measure FILE.json [PART ...]
+python -m benchmarks.sweeps page FILE.json FOLDER
 """
 
 import json
@@ -10,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -31,7 +32,7 @@ COMBINED = (1_000, 10_000, 100_000)  # designs
 SAMPLED = (10_000, 100_000, 1_000_000)  # designs
 PLANNED = (100, 400, 1600, 6400)  # chunks
 FORMULAE = 1_000_000  # designs
-EXTRAPOLATED = ((10_000, 250), (100_000, 250), (100_000, 2000), (10_000_000, 2000))
+EXTRAPOLATED = ((10_000, 500), (100_000, 500), (100_000, 2000), (10_000_000, 2000))
 MANY = 100_000  # designs of which the measured chunks are parts, sorted as in a sweep
 
 
@@ -225,22 +226,24 @@ def whole_run(folder: Path) -> dict:
     return found
 
 
-def measure() -> dict[str, Any]:
-    """Everything that the page tells."""
-    found: dict[str, Any] = {"machine": machine()}
-    start = time.monotonic()
+def measure(parts: Sequence[str] = (), found: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Everything that the page tells, or some parts of it anew."""
+    found = dict(found or {}) | {"machine": machine()}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        found["sampled"] = sampled()
-        found["combined"] = combining(folder)
         (folder / "clone").mkdir()
         _clone(folder / "clone", 1, 1)
-        found["planned"] = planning(folder / "clone")
-        found["job"] = job(folder / "clone")
-        found["whole"] = whole_run(folder / "clone")
-    found["formulae"] = formulae()
-    found["chunks"] = chunk_sizes()
-    print(f"{time.monotonic() - start:.0f} s", flush=True)
+        of = {
+            "sampled": sampled,  # memory first, before more is imported
+            "combined": lambda: combining(folder),
+            "planned": lambda: planning(folder / "clone"),
+            "job": lambda: job(folder / "clone"),
+            "whole": lambda: whole_run(folder / "clone"),
+            "formulae": formulae,
+            "chunks": chunk_sizes,
+        }
+        for part in parts or of:
+            found[part] = of[part]()
     return found
 
 
@@ -366,9 +369,10 @@ def main(arguments: list[str]) -> int:
     from gelpump.text import write_json, write_text
 
     match arguments:
-        case ["measure", file]:
+        case ["measure", file, *parts]:
             Path(file).parent.mkdir(parents=True, exist_ok=True)
-            write_json(measure(), file)
+            before = json.loads(Path(file).read_text(encoding="utf-8")) if parts else None
+            write_json(measure(parts, before), file)
         case ["page", file, folder]:
             measured = json.loads(Path(file).read_text(encoding="utf-8"))
             write_text(page(measured), Path(folder) / "sweeps.md")

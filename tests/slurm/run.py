@@ -26,7 +26,7 @@ from clone import Clone
 
 HERE = Path(__file__).resolve().parent
 TOOLS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol")
-LIMIT = 400  # seconds, of which all but the last 30 may be spent on sweeps
+LIMIT = 600  # seconds, of which all but the last 30 may be spent on sweeps
 INSTALLING = 120  # seconds
 PREFIX = "gelpump-slurm-"
 # the executor takes SLURM_CONF out of the environment of a job before it calls srun

@@ -32,7 +32,7 @@ METHODS = ("grid", "latin_hypercube", "sobol")
 DEFAULTS = {
     "samples": 64,
     "seed": 0,
-    "chunk": 250,
+    "chunk": 500,
     "numerics": {"cells": [32, 20], "tolerance": 5.0e-4, "reach": 12.0},
     "accuracy": {"designs": 16, "error": 1.0e-2},
 }

@@ -43,5 +43,4 @@ rule all:
     input:
         PRODUCTS,
         "results/manifest.json",
-        "results/replication.pdf",
         "results/ro-crate-metadata.json",

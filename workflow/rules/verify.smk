@@ -14,6 +14,7 @@ PRODUCTS = [
     "results/tables/ledger.md",
     *CHECKS,
     "results/report.html",
+    "results/replication.pdf",
 ]
 VERIFY = [
     "netcdf",

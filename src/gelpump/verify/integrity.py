@@ -13,8 +13,6 @@ NOT_LISTED = {
     "results/README.md",
     "results/manifest.json",
     "results/ro-crate-metadata.json",
-    "results/report.html",
-    "results/replication.pdf",
     "results/tables/verify.md",
 }
 NOT_RESULTS = (

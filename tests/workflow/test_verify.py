@@ -143,9 +143,11 @@ def test_an_untouched_build_passes(renewed):
 def test_all_that_is_wrong_is_named_at_once(renewed):
     figure, table = "results/figures/fig13_osmotic.pdf", "results/tables/ledger.md"
     stray, changed = renewed.path / "results/data/tube_of_last_year.nc", renewed.path / "new.yaml"
-    with kept(renewed, figure, table, DATASET):
-        with (renewed.path / figure).open("ab") as stream:
-            stream.write(b" ")
+    told_to_people = ("results/report.html", "results/replication.pdf")
+    with kept(renewed, figure, table, DATASET, *told_to_people):
+        for path in (figure, *told_to_people):
+            with (renewed.path / path).open("ab") as stream:
+                stream.write(b" ")
         altered = (renewed.path / figure).read_bytes()
         (renewed.path / table).unlink()
         stray.write_bytes(b"old")
@@ -165,6 +167,7 @@ def test_all_that_is_wrong_is_named_at_once(renewed):
     assert code != 0
     for told in (
         f"altered: {figure}: ",
+        *(f"altered: {path}: " for path in told_to_people),
         f"altered: {DATASET}: ",
         f"missing: {table}: ",
         "leftover: results/data/tube_of_last_year.nc: ",

@@ -208,6 +208,21 @@ def test_a_range_ends_where_its_light_changes():
         assert slender.light == light
 
 
+def test_a_light_that_a_parameter_does_not_move_leaves_no_range():
+    """No wall makes a stout tube slender, and nothing keeps a gel whole that parts on the way."""
+    stout = design("microtube", heated_length="0.2 mm")
+    found = {each.key: each for each in inverse.ranges(stout, 1.0, 0.02)}
+    assert {key for key, each in found.items() if each.feasible} == {"a_1", "size"}
+    assert "none, whatever it is (red: the tube is slender)" in inverse.sentence(found["wall"])
+    amber = design("microtube", heated_length="0.4 mm")
+    assert all(each.feasible for each in inverse.ranges(amber, 1.0, 0.02, AMBER))
+    green = {each.key: each for each in inverse.ranges(amber, 1.0, 0.02, GREEN)}
+    assert not green["wall"].feasible
+    assert green["size"].feasible
+    parting = design("millitube", critical_temperature="307.6 K", heating_step="2.4 K")
+    assert not any(each.feasible for each in inverse.ranges(parting, 1e9, 20.0))
+
+
 def test_too_much_is_wanted():
     found = design("microtube")
     ranges = inverse.ranges(found, 1e-12, device.response_time(found))

@@ -7,23 +7,36 @@ By scaling, exactly, with I the quadrature of t_99 (section 3.4), which holds th
 so that the longest time allowed bounds the thickness from above and k and Pi_00 (the moduli keeping
 their ratios) from below. The lights that need no solution bound from the other side: slenderness,
 the Lewis number, the coupling G and the number of pores across the wall, each by a power of the
-parameter. `lights` asks for amber at least, or for green. Closeness and the lumen's flow are judged
-by solving the design forward.
+parameter. A light that the parameter does not move, but that is worse than asked for, leaves no
+range. `lights` asks for amber at least, or for green. Closeness and the lumen's flow are judged by
+solving the design forward.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gelpump.design import units
 from gelpump.design.description import Design
 from gelpump.design.device import lewis_number
-from gelpump.design.result import AMBER, GREEN
-from gelpump.design.validity import CONTINUUM, COUPLING, LEWIS, SLENDER
+from gelpump.design.result import AMBER, GREEN, LIGHTS
+from gelpump.design.validity import CONTINUUM, COUPLING, LEWIS, SLENDER, before_solving
+
+MOVED = {  # which lights a parameter moves
+    "radius": {CONTINUUM},
+    "wall": {CONTINUUM},
+    "a_1": {CONTINUUM, COUPLING, SLENDER},
+    "size": {CONTINUUM, COUPLING, SLENDER},
+    "permeability": {LEWIS, COUPLING, CONTINUUM},
+    "osmotic_modulus": {LEWIS},
+}
 
 
 @dataclass(frozen=True)
 class Range:
-    """From ``low`` to ``high`` in SI ``unit``, and what sets either end; empty if low > high."""
+    """From ``low`` to ``high`` in SI ``unit``, and what sets either end; empty if low > high.
+
+    ``high`` is 0 where a light that the parameter does not move leaves nothing.
+    """
 
     key: str
     text: str
@@ -84,7 +97,18 @@ def ranges(design: Design, wanted: float, now: float, lights: str = AMBER) -> li
         _range("osmotic_modulus", "osmotic modulus, all moduli in proportion", "Pa", Pi_00,
                [(Pi_00 / faster, time)], [(Pi_00 * conducting, LEWIS.text)]),
     ]  # fmt: skip
-    return found
+    seen = before_solving(design)
+    return [_blocked(each, seen, lights) for each in found]
+
+
+def _blocked(each, seen, lights) -> Range:
+    """The range, or an empty one if a light is worse than ``lights`` that it does not move."""
+    for light in seen:
+        worse = LIGHTS.index(light.light) > LIGHTS.index(lights)
+        if worse and light.criterion not in MOVED[each.key]:
+            said = f"{light.light}: {light.criterion.text}"
+            return replace(each, low=each.now, low_by=said, high=0.0, high_by=said)
+    return each
 
 
 def _range(key, text, unit, now, lows, highs) -> Range:
@@ -98,6 +122,8 @@ def sentence(each: Range) -> str:
         number, unit = units.shown(value, each.unit)
         return f"{units.told(number, 4)} {units.readable(unit)}".strip()
 
+    if each.high == 0:
+        return f"{each.text}: none, whatever it is ({each.low_by})"
     if not each.feasible:
         return (
             f"{each.text}: none; at least {said(each.low)} ({each.low_by}), "

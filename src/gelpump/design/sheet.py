@@ -92,7 +92,11 @@ def answer_rows(data) -> list[tuple[str, str, str]]:
             low, high = map(float, each[row])
             text.append(_span(low, high, each.units) if low <= high else "none")
         below, above = each.set_by.split("; ")
-        loose = f"{text[0]} (set by: {below}; {above})"
+        loose = (
+            f"none, whatever it is ({below})"
+            if below == above
+            else f"{text[0]} (set by: {below}; {above})"
+        )
         rows.append((each.long_name, loose, f"all green: {text[1]}"))
     return rows
 

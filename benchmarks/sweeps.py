@@ -24,15 +24,16 @@ from benchmarks.measure import forked, growth
 from benchmarks.page import table
 from benchmarks.settings import PROJECT
 from gelpump.sweep import plan
+from gelpump.sweep.solving import FAMILY
 
 PARTS = ("Snakefile", "config", "profiles", "workflow", "src")
-CHUNKS = (10, 30, 100, 250, 500, 1000, 2000)  # designs
+CHUNKS = (10, 30, 100, 250, 500, 2000)  # designs
 THREE_PLACES = 500  # designs of the largest chunk that is measured at three places
 COMBINED = (1_000, 10_000, 100_000)  # designs
 SAMPLED = (10_000, 100_000, 1_000_000)  # designs
 PLANNED = (100, 400, 1600, 6400)  # chunks
 FORMULAE = 1_000_000  # designs
-EXTRAPOLATED = ((10_000, 500), (100_000, 500), (100_000, 2000), (10_000_000, 2000))
+EXTRAPOLATED = ((10_000, 500), (100_000, 500), (100_000, 5000), (10_000_000, 20_000))
 MANY = 100_000  # designs of which the measured chunks are parts, sorted as in a sweep
 
 
@@ -250,7 +251,10 @@ def measure(parts: Sequence[str] = (), found: Mapping[str, Any] | None = None) -
 def extrapolated(measured: Mapping[str, Any], designs: int, size: int) -> dict[str, float]:
     """Cost of a sweep from what was measured: hours of CPU, jobs, files and bytes."""
     jobs = -(-designs // size)
-    per_design = np.mean(next(c["seconds"] for c in measured["chunks"] if c["designs"] == size))
+    nearest = max(
+        (c for c in measured["chunks"] if c["designs"] <= size), key=lambda c: c["designs"]
+    )
+    per_design = np.mean(nearest["seconds"])  # larger chunks are families one after the other
     planned = measured["planned"]
     counts = [each["chunks"] for each in planned]
     plan_of = {
@@ -264,6 +268,7 @@ def extrapolated(measured: Mapping[str, Any], designs: int, size: int) -> dict[s
         "jobs": jobs,
         "solve_hours": designs * per_design / 3600,
         "job_hours": jobs * measured["job"]["seconds"] / 3600,
+        "one_job": size * per_design + measured["job"]["seconds"],
         "combine_hours": designs * combined["seconds"] / combined["designs"] / 3600,
         "plan_seconds": plan_of["seconds"],
         "plan_mb": plan_of["memory_mb"],
@@ -305,8 +310,8 @@ def tables(measured: Mapping[str, Any]) -> dict[str, str]:
                 size,
                 _two(cost["jobs"]),
                 f"{_two(cost['solve_hours'])} + {_two(cost['job_hours'])}",
-                _time(3600 * hours / 2),
-                _time(3600 * hours / 200),
+                *(_time(max(3600 * hours / cores, cost["one_job"])) for cores in (2, 200)),
+                _time(3600 * cost["combine_hours"]),
                 _two(cost["files"]),
                 _two(cost["bytes"] / 1e9),
                 _time(cost["plan_seconds"]),
@@ -335,7 +340,8 @@ def tables(measured: Mapping[str, Any]) -> dict[str, str]:
         ),
         "costs": table(
             ["designs", "chunk", "jobs", "core hours: solving + jobs", "on 2 cores",
-             "on 200 cores", "files", "GB", "Snakemake's plan", "of GB", "drawing, GB"],
+             "on 200 cores", "combining", "files", "GB", "Snakemake's plan", "of GB",
+             "drawing, GB"],
             costs,
         ),
     }  # fmt: skip
@@ -360,8 +366,14 @@ def page(measured: Mapping[str, Any]) -> str:
     text = (Path(__file__).parent / "sweeps.md.j2").read_text(encoding="utf-8")
     sampling = measured["sampled"][-1]
     return jinja2.Template(
-        text, undefined=jinja2.StrictUndefined, keep_trailing_newline=True
-    ).render(**measured, tables=tables(measured), largest=plan.WHOLE["chunk"][1], drawn=sampling)
+        text, trim_blocks=True, undefined=jinja2.StrictUndefined, keep_trailing_newline=True
+    ).render(
+        **measured,
+        tables=tables(measured),
+        largest=plan.WHOLE["chunk"][1],
+        family=FAMILY,
+        drawn=sampling,
+    )
 
 
 def main(arguments: list[str]) -> int:

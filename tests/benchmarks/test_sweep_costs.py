@@ -35,9 +35,11 @@ MEASURED = {
 
 def test_costs_of_ten_million_designs_by_hand():
     cost = sweeps.extrapolated(MEASURED, 10_000_000, 2000)
+    assert sweeps.extrapolated(MEASURED, 10_000_000, 20_000)["solve_hours"] == cost["solve_hours"]
     assert cost["jobs"] == 5000
     assert cost["solve_hours"] == pytest.approx(1e7 * (0.01 + 1 / 2000) / 3600)
     assert cost["job_hours"] == pytest.approx(1e4 / 3600)
+    assert cost["one_job"] == pytest.approx(2000 * (0.01 + 1 / 2000) + 2)
     assert cost["combine_hours"] == pytest.approx(500 / 3600)
     assert cost["plan_seconds"] == pytest.approx(22, rel=1e-6)
     assert cost["plan_mb"] == pytest.approx(310, rel=1e-6)
@@ -48,8 +50,8 @@ def test_costs_of_ten_million_designs_by_hand():
 
 def test_the_page_tells_them():
     page = sweeps.page(MEASURED)
-    assert "| 10 000 000 | 2000 | 5 000 | 29 + 2.8 | 16 h | 9.6 min | 15 000 | 5 |" in page
+    assert "| 10 000 000 | 20000 | 500 | 29 + 0.28 | 15 h | 8.8 min | 8.3 min | 1 500 | 5 |" in page
     assert "a million designs take 3.0 CPU s" in page
-    assert "10 000 solved, 0 failed." in page
+    assert "- 10 000 solved\n- 0 failed\n- one\n" in page
     assert "chunks of 500" in page
     assert "{{" not in page

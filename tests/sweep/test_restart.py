@@ -133,7 +133,7 @@ def test_a_refused_sweep_starts_no_job(restarted):
         describe(clone, chunk="large")
         run = clone.snakemake("sweep_my-own")
         assert run.returncode != 0
-        assert "chunk = 'large': must be a whole number from 1 to 2000" in said(run)
+        assert "chunk = 'large': must be a whole number from 1 to 50000" in said(run)
         assert "rule sweep_chunk" not in said(run)
         assert clone.snakemake("--dry-run", "fig13_osmotic").returncode == 0  # not asked for
     finally:

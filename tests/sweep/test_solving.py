@@ -76,6 +76,22 @@ def test_a_chunk_is_as_accurate_as_its_sweep_asks(cube):
     assert accuracy.verdict(none.assign(flagged=0))[0]  # none was asked for
 
 
+def test_a_large_chunk_is_several_families(monkeypatch, cube):
+    sweep, together = cube
+    monkeypatch.setattr(solving, "FAMILY", 5)
+    sizes, honest = [], solving._family
+
+    def counting(these, *rest):
+        sizes.append(these.sizes["index"])
+        return honest(these, *rest)
+
+    monkeypatch.setattr(solving, "_family", counting)
+    apart = solving.solve_designs(together, sweep["tau"], sweep["numerics"])
+    assert sorted(sizes) == [2, 5, 5]
+    for name in solving.OUTPUTS:
+        assert np.abs(apart[name] / together[name] - 1).max() < 5e-3, name
+
+
 def test_only_the_healing_length_counts():
     """Phi_1 depends on ell and eps by Z/w and tau/w^2 only, w = eps (1-ell)/4: an exact law."""
     base, tau = designs(1), 0.01

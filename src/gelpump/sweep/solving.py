@@ -1,9 +1,10 @@
 """Full pulse solves of many designs, each with a result or a stated reason why there is none.
 
-All designs of a chunk are one family on one mesh (`gelpump.tube.slender`). Should the family fail,
-it is divided into halves until the tube that fails is alone; alone it is tried once more, with more
-cells and other steps, and flagged if that fails too. A result that breaks its own conservation of
-water, or leaves [1, Phi_inf], by more than DOUBTFUL is kept and flagged.
+The designs of a chunk are families of at most FAMILY, each on one mesh (`gelpump.tube.slender`);
+larger ones would be no cheaper (docs/sweeps.md). Should a family fail, it is divided into halves
+until the tube that fails is alone; alone it is tried once more, with more cells and other steps,
+and flagged if that fails too. A result that breaks its own conservation of water, or leaves [1,
+Phi_inf], by more than DOUBTFUL is kept and flagged.
 """
 
 from collections.abc import Mapping
@@ -20,6 +21,7 @@ from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
 
 NEWTON_SHARE = 0.03  # a tenth stalls some tubes with Phi_inf above 6
+FAMILY = 500  # tubes
 TRIALS = 3000  # a family takes some hundred steps
 DOUBTFUL = 1e-2
 SOLVED, REFINED, INACCURATE, FAILED = range(4)
@@ -46,7 +48,7 @@ def solve_designs(designs: xr.Dataset, tau, numerics: Mapping) -> xr.Dataset:
     found = {name: np.full((count, times), np.nan) for name in OUTPUTS}
     status = np.zeros(count, np.int8)
     reason = np.full(count, "", object)
-    pending = [np.arange(count)]
+    pending = [np.arange(start, min(start + FAMILY, count)) for start in range(0, count, FAMILY)]
     while pending:
         these = pending.pop()
         try:

@@ -9,13 +9,14 @@ def main(arguments: list[str]) -> int:
     """Measure, make the page of what was measured, or show where a rebuild spends its time."""
     match arguments:
         case ["measure", file]:
-            from benchmarks import cost, growing, profile
+            from benchmarks import cost, growing, levers, profile
             from gelpump.text import write_json
 
             measured = {"machine": growing.machine(), "rebuild": growing.rebuild()}
             measured["profile"] = profile.rebuild()
-            measured["growth"] = [*growing.series(), growing.steps()]
+            measured["growth"] = growing.series()
             measured["cost"] = cost.measure()
+            measured["levers"] = levers.measure()
             Path(file).parent.mkdir(parents=True, exist_ok=True)
             write_json(measured, file)
         case ["page", file, folder]:

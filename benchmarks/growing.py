@@ -13,6 +13,8 @@ from benchmarks import tools
 from benchmarks.measure import forked, growth
 from benchmarks.problems import Bead, Tubes
 from benchmarks.settings import PROJECT, paper
+from gelpump.bead import lens
+from gelpump.finite_volume import together
 
 IMPORTS = {
     "interpreter": "pass",
@@ -25,7 +27,7 @@ IMPORTS = {
 }
 
 
-def _series(name: str, unit: str, counts, run) -> dict:
+def _series(name: str, unit: str, why: str, counts, run) -> dict:
     cost, done, failed = [], [], []
     for n in counts:
         try:
@@ -33,20 +35,26 @@ def _series(name: str, unit: str, counts, run) -> dict:
             done.append(n)
         except ChildProcessError:  # its traceback is in the log
             failed.append(n)
-    counts = done
-    seconds = [each[0] for each in cost]
+    return _record(name, unit, why, done, cost) | {"failed": failed}
+
+
+def _record(name: str, unit: str, why: str, counts, cost) -> dict:
+    seconds = [each.seconds for each in cost]
     fit, upper = growth(counts, seconds), growth(counts[-3:], seconds[-3:])
     record = {
         "what": name,
         "unit": unit,
+        "why": why,
         "n": [int(n) for n in counts],
-        "failed": failed,
         "seconds": seconds,
-        "memory_mb": [each[1] for each in cost],
+        "wall": [each.wall for each in cost],
+        "memory_mb": [each.memory_mb for each in cost],
         "exponent": fit.exponent,
         "exponent_uncertainty": fit.exponent_uncertainty,
         "upper_exponent": upper.exponent,
         "upper_exponent_uncertainty": upper.exponent_uncertainty,
+        "fixed": fit.fixed,
+        "slope": fit.slope,
         "crossover": fit.crossover if np.isfinite(fit.crossover) else None,
     }
     print(record, flush=True)
@@ -54,7 +62,7 @@ def _series(name: str, unit: str, counts, run) -> dict:
 
 
 def series() -> list[dict]:
-    """Cells, tubes, cases and jobs, each with the others fixed."""
+    """Cells, tubes, cases, jobs and steps, each with the others fixed."""
     swelling = Bead.of(paper(), "swelling")
 
     def tubes(count):
@@ -67,84 +75,94 @@ def series() -> list[dict]:
         _series(
             "cells of a bead",
             "cells",
+            "a sweep is some hundred calls of NumPy, most by FiPy, whose cost does not depend on "
+            "the length of their arrays until these are long; and finer shells ask Newton's "
+            "method for more accuracy, so for more sweeps",
             [40, 160, 640, 2560],
             lambda n: tools.our_bead(swelling, n, 1e-3),
         ),
         _series(
             "cells of five tubes",
             "cells a tube",
+            "the same calls, on the cells of all tubes at once",
             [32, 128, 512, 2048],
             lambda n: tools.our_tubes(tubes(5), n // 2, n // 2, 1e-3),
         ),
         _series(
             "tubes of a family",
             "tubes of 52 cells",
+            "tubes are blocks of one mesh and share each sweep, so that another tube costs only "
+            "its cells, until these outweigh the calls; and all take the steps of the one that "
+            "needs most",
             [1, 4, 16, 64, 256],
             lambda n: tools.our_tubes(tubes(n), 32, 20, 1e-3),
         ),
         _series(
             "bead cases, one after the other",
             "cases",
+            "nothing is shared: in proportion from the first case on",
             [1, 2, 4, 8],
             lambda n: [tools.our_bead(swelling, 24, 1e-3) for _ in range(n)],
         ),
-        _series("Snakemake jobs that do nothing", "jobs", [1, 4, 16, 64], _jobs),
+        _series(
+            "bead cases that share sweeps",
+            "cases",
+            "a sweep serves all, so that a case adds its cells and what is done between sweeps",
+            [1, 2, 4, 8],
+            lambda n: together(*[lambda: tools.our_bead(swelling, 24, 1e-3)] * n),
+        ),
+        _series(
+            "Snakemake jobs that do nothing",
+            "jobs",
+            "Snakemake starts once and reads the workflow once; each job then starts a Python of "
+            "its own",
+            [1, 4, 16, 64],
+            empty_jobs,
+        ),
+        steps(swelling),
     ]
 
 
-def _jobs(count: int) -> None:
-    """A workflow of ``count`` scripts that write an empty file."""
+def empty_jobs(count: int, *options: str, body: str = "script: 'one.py'") -> None:
+    """A workflow of ``count`` jobs that write an empty file."""
     with tempfile.TemporaryDirectory() as folder:
         here = Path(folder)
         (here / "Snakefile").write_text(
             f"rule all:\n    input: expand('{{i}}.txt', i=range({count}))\n\n"
-            "rule one:\n    output: '{i}.txt'\n    script: 'one.py'\n"
+            f"rule one:\n    output: '{{i}}.txt'\n    {body}\n"
         )
         (here / "one.py").write_text("open(snakemake.output[0], 'w').close()\n")
-        command = [sys.executable, "-m", "snakemake", "--cores", "1", "--quiet", "all"]
-        subprocess.run(command, cwd=here, check=True, capture_output=True)
+        command = [sys.executable, "-m", "snakemake", "--cores", "1", "--quiet", "all", *options]
+        subprocess.run([*command, "--", "all"], cwd=here, check=True, capture_output=True)
 
 
-def steps() -> dict:
-    """CPU seconds against the number of time steps, in one process: the tolerance varies."""
-    from benchmarks.measure import cpu
-    from gelpump.bead import lens
+def steps(problem: Bead) -> dict:
+    """Against the number of time steps: the tolerance varies."""
 
-    problem = Bead.of(paper(), "swelling")
-    counts, seconds = [], []
-    for tolerance in (1e-3, 1e-4, 1e-5, 1e-6):
-        spent, bead = cpu(
-            lambda tolerance=tolerance: lens.solve(
-                problem.gel,
-                problem.temperature,
-                problem.phi_initial,
-                problem.times,
-                40,
-                tolerance=tolerance,
-            ),
-            repeats=1,
+    def run(tolerance):
+        return lens.solve(
+            problem.gel,
+            problem.temperature,
+            problem.phi_initial,
+            problem.times,
+            40,
+            tolerance=tolerance,
         )
-        counts.append(int(bead.attrs["steps"]))
-        seconds.append(spent)
-    fit, upper = growth(counts, seconds), growth(counts[-3:], seconds[-3:])
-    return {
-        "what": "time steps of a bead",
-        "unit": "steps",
-        "n": counts,
-        "seconds": seconds,
-        "memory_mb": [],
-        "exponent": fit.exponent,
-        "exponent_uncertainty": fit.exponent_uncertainty,
-        "upper_exponent": upper.exponent,
-        "upper_exponent_uncertainty": upper.exponent_uncertainty,
-        "crossover": fit.crossover if np.isfinite(fit.crossover) else None,
-    }
+
+    tolerances = (1e-3, 1e-4, 1e-5, 1e-6)
+    return _record(
+        "time steps of a bead",
+        "steps",
+        "short steps are predicted better and take fewer sweeps each; set-up is paid once",
+        [int(run(tolerance).attrs["steps"]) for tolerance in tolerances],
+        [forked(lambda tolerance=tolerance: run(tolerance)) for tolerance in tolerances],
+    )
 
 
 def rebuild() -> dict:
     """Start-up costs, and Snakemake's own."""
     start = {
-        name: min(forked(lambda code=code: _python("-c", code))[0] for _ in range(3))
+        name: min(forked(lambda code=code: _python("-c", code)).seconds for _ in range(3))
         for name, code in IMPORTS.items()
     }
 
@@ -152,7 +170,7 @@ def rebuild() -> dict:
         _python("-m", "snakemake", "--cores", "1", "--dry-run", "--forceall", "all")
 
     try:
-        plan = forked(dry)[0]
+        plan = forked(dry).seconds
     except ChildProcessError:  # the workflow does not parse: its message is in the log
         plan = None
     return {"start": start, "plan": plan}

@@ -1,8 +1,8 @@
 """CPU seconds and peak memory, and what follows from them."""
 
 import os
-import resource
 import time
+import traceback
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -25,24 +25,35 @@ def cpu(run: Callable[[], Any], repeats: int = 3, enough: float = 2.0) -> tuple[
     return float(least), result
 
 
-def forked(run: Callable[[], Any]) -> tuple[float, float]:
-    """CPU seconds of ``run`` and of what it starts, and peak memory in MB, in a process of its own.
+class Used(NamedTuple):
+    """What a process and those that it started took."""
+
+    seconds: float  # of CPU time
+    memory_mb: float  # at most, of the largest of them
+    wall: float  # s
+
+
+def forked(run: Callable[[], Any]) -> Used:
+    """What ``run`` and all that it starts take, in a process of its own.
 
     ChildProcessError if it fails.
     """
+    begun = time.perf_counter()
     child = os.fork()
     if child == 0:
         status = 1
         try:
             run()
-            below = resource.getrusage(resource.RUSAGE_CHILDREN)
-            status = 0 if below.ru_utime >= 0 else 1
+            status = 0
+        except BaseException:
+            traceback.print_exc()
         finally:
             os._exit(status)
     _, status, used = os.wait4(child, 0)
+    wall = time.perf_counter() - begun
     if status:
         raise ChildProcessError(f"status {status}")
-    return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
+    return Used(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024, wall)
 
 
 class Cost(NamedTuple):

@@ -71,7 +71,23 @@ def verdicts(problems: Sequence[Mapping[str, Any]]) -> str:
                 verdict = "undecided: a lower bound"
             condition = f"textbook FiPy costs {LEAST:g} times as much"
             rows.append([record["problem"], condition, _number(value, bound=bound), verdict])
-    return table(["problem", "condition", "measured", "verdict"], rows)
+    return table(["problem", "condition", "measured", "verdict"], rows) + alone(problems)
+
+
+def alone(problems: Sequence[Mapping[str, Any]]) -> str:
+    """What is to be said of tubes that miss, alone, what is asked of their family."""
+    tubes = [each for each in problems if each["kind"] == "tube" and "times_sundials" in each]
+    missed = [each for each in tubes[:-1] if each["times_sundials"] > each["most"]]
+    if not missed or tubes[-1]["times_sundials"] > tubes[-1]["most"]:
+        return ""
+    told = " and ".join(
+        f"{each['problem']} costs {each['times_sundials']:.2g} times SUNDIALS'" for each in missed
+    )
+    return f"""
+The bound on tubes is asked of their family, and holds there. Alone, {told}: a sweep costs nearly
+the same for one tube as for all of them, and one tube has to pay for it alone. Where a single tube
+is wanted, SUNDIALS is the better tool.
+"""
 
 
 def models(rows: Sequence[Mapping[str, Any]]) -> str:
@@ -93,29 +109,47 @@ def models(rows: Sequence[Mapping[str, Any]]) -> str:
 
 
 def growth_table(series: Sequence[Mapping[str, Any]]) -> str:
-    """Exponents, whole and of the last three runs."""
+    """Cost over the range, and exponents, whole and of the last three runs."""
     rows = [
         [
             each["what"],
             f"{each['n'][0]} to {each['n'][-1]} {each['unit']}",
             f"{each['seconds'][0]:.2g} to {each['seconds'][-1]:.2g}",
-            f"{max(each['memory_mb']):.0f}" if each["memory_mb"] else "–",
+            f"{each['wall'][0]:.2g} to {each['wall'][-1]:.2g}",
+            f"{each['memory_mb'][0]:.0f} to {each['memory_mb'][-1]:.0f}",
             f"{each['exponent']:.2f} ± {each['exponent_uncertainty']:.2f}",
             f"{each['upper_exponent']:.2f} ± {each['upper_exponent_uncertainty']:.2f}",
-            "–" if each["crossover"] is None else f"{each['crossover']:.2g}",
         ]
         for each in series
     ]
-    head = [
-        "what grows",
-        "range",
-        "CPU s",
-        "peak MB",
-        "exponent",
-        "of the last three",
-        "fixed = growing at",
-    ]
+    head = ["what grows", "range", "CPU s", "wall s", "peak MB", "exponent", "of the last three"]
     return table(head, rows)
+
+
+LINEAR = 0.1  # of the cost at the largest n: less that is fixed, and growth is linear throughout
+
+
+def growth_reasons(series: Sequence[Mapping[str, Any]]) -> str:
+    """Where each stops being linear, and why."""
+    rows = []
+    for each in series:
+        unit = each["unit"].split()[0]
+        fixed, slope, last = each["fixed"], each["slope"], each["n"][-1]
+        at = each["crossover"]
+        if at is None or slope <= 0:
+            where = "does not grow here"
+        elif fixed < LINEAR * (fixed + slope * last):
+            where = "linear throughout" if at < each["n"][0] else f"linear from {at:.2g} on"
+        elif at > last:
+            where = f"not yet linear at {last}: it would be from {at:.2g} on"
+        else:
+            where = f"linear from {at:.2g} on"
+        if each["upper_exponent"] - 2 * each["upper_exponent_uncertainty"] > 1:
+            where += "; the last three grow faster than that"
+        rows.append(
+            [each["what"], f"{fixed:.2g}", f"{slope:.2g} a {unit.rstrip('s')}", where, each["why"]]
+        )
+    return table(["what grows", "fixed, CPU s", "and", "so it is", "because"], rows)
 
 
 def rebuild_tables(rebuild: Mapping[str, Any], profiled: Mapping[str, Any]) -> str:
@@ -182,6 +216,82 @@ def rules_table(profiled: Mapping[str, Any]) -> str:
     return table(["rule", "jobs", "CPU s", "wall s", "peak MB"], rows)
 
 
+def levers_table(levers: Sequence[Mapping[str, Any]]) -> str:
+    """CPU seconds with each lever and without it."""
+    rows = [
+        [
+            each["lever"],
+            each["instead"],
+            each["where"],
+            f"{each['with']:.2g}",
+            "error above 1 %" if each["without"] is None else f"{each['without']:.2g}",
+            "–" if each["without"] is None else f"{each['without'] / each['with']:.1f}",
+        ]
+        for each in levers
+    ]
+    return table(["lever", "instead of", "where", "CPU s with", "without", "times"], rows)
+
+
+def left(profiled: Mapping[str, Any], rebuild: Mapping[str, Any]) -> str:
+    """What a rebuild spends outside the physics' own arithmetic, and what a lower time needs."""
+    spent = {
+        name: sum(counted.get(name, 0.0) for counted in profiled["table"].values())
+        for name in profile.ROWS
+    }
+    processes = sum(rule["number"] for rule in profiled["rules"].values())
+    once = sum(seconds / number for number, seconds in profiled["imports"].values())
+    begun = spent[profile.START] + spent[profile.END]
+    fipy = spent["FiPy: matrix assembly"] + spent["FiPy: the rest"]
+    saved = {k: v for k, v in spent.items() if k.startswith("figures: saving")}
+    plan = min(rebuild["plan"] or 0.0, spent[profile.SCHEDULING])
+    rows = [
+        [
+            f"{processes} interpreters and their imports",
+            begun + spent[profile.IMPORTS],
+            "one process for all jobs; but then no figure can be made anew alone, and an error "
+            "in one ends all",
+            begun / processes + once,
+        ],
+        [
+            "Snakemake's plan and schedule",
+            spent[profile.SCHEDULING],
+            "only the plan of the whole build, no watching of jobs",
+            plan,
+        ],
+        [
+            "FiPy around its linear solves",
+            fipy,
+            "the same scheme in NumPy alone; but FiPy is what users of the project ask for",
+            0.0,
+        ],
+        [
+            "rates and Jacobians that SUNDIALS asks for",
+            spent["SUNDIALS and the rates it asks for"],
+            "the same in a compiled language (not counted as saved: it would be written twice)",
+            spent["SUNDIALS and the rates it asks for"],
+        ],
+        [
+            "three formats of each figure",
+            sum(saved.values()),
+            "one of them, PNG",
+            saved["figures: saving PNG"],
+        ],
+    ]
+    now, then = sum(row[1] for row in rows), sum(row[3] for row in rows)
+    total = profiled["seconds"]
+    body = [[what, f"{a:.1f}", need, f"{b:.1f}"] for what, a, need, b in rows]
+    body.append(
+        ["all the rest: physics, drawing, files", f"{total - now:.1f}", "", f"{total - now:.1f}"]
+    )
+    body.append(["**all**", f"**{total:.1f}**", "", f"**{total - now + then:.1f}**"])
+    head = ["what is spent on", "CPU s", "what a lower time would need", "CPU s then"]
+    return f"""{table(head, body)}
+Two cores take at least half of the CPU seconds, {total / 2:.0f} s; this rebuild, which also
+sampled itself, took {profiled["wall"]:.0f} s. All of the above together would leave
+{(total - now + then) / 2:.0f} s.
+"""
+
+
 def functions_table(profiled: Mapping[str, Any]) -> str:
     """The functions of jobs that take most, with all that they call; imports excluded."""
     rows = [
@@ -216,14 +326,14 @@ def profile_table(profile: Sequence[Mapping[str, Any]]) -> str:
     return table(head, rows)
 
 
-def page(measured: Mapping[str, Any], levers: str = "") -> str:
+def page(measured: Mapping[str, Any]) -> str:
     """The page as Markdown."""
     machine = measured["machine"]
     cost = measured["cost"] | {"problems": list(map(concluded, measured["cost"]["problems"]))}
     return f"""# Performance
 
-Made by `snakemake --cores 1 performance`, which measures all of it again. Measured on
-{machine["cpu"]}, {machine["cores"]} cores, Python {machine["python"]}, {machine["system"]}, at a
+Made by `snakemake --cores 1 performance --forcerun benchmarks`, which measures all of it. Measured
+on {machine["cpu"]}, {machine["cores"]} cores, Python {machine["python"]}, {machine["system"]}, at a
 load of {machine["load"]} when it began. CPU seconds are user and system time of one process,
 imports excluded unless stated; the least of three runs, or of one if that took two seconds.
 
@@ -258,14 +368,26 @@ own converged solution, at an error of {TARGET:g}:
 {models(cost["models"])}
 ## Growth
 
-Cost ~ n^exponent, fitted to all runs and to the last three; and the n at which what grows costs as
-much as what is fixed. A sweep of FiPy has a large fixed part, so that cost grows less than in
-proportion to cells and tubes as long as that part leads.
+CPU seconds ~ n^exponent, fitted to all runs and to the last three. Each run has a process of its
+own; imports are excluded, and the memory is that of the process with all that it has loaded.
 
 {growth_table(measured["growth"])}
+The same as a fixed cost and one in proportion, fitted together; where the second is larger, growth
+is called linear.
+
+{growth_reasons(measured["growth"])}
+## Levers
+
+What makes it fast, each left out alone. For beads and tubes: CPU seconds at an error of {TARGET:g},
+interpolated as above; for what is around them, of what is named.
+
+{levers_table(measured["levers"])}
 ## A rebuild
 
-{rebuild_tables(measured["rebuild"], measured["profile"])}{levers}"""
+{rebuild_tables(measured["rebuild"], measured["profile"])}
+## What is left, and what a lower time would need
+
+{left(measured["profile"], measured["rebuild"])}"""
 
 
 def draw(problems: Sequence[Mapping[str, Any]]):
@@ -301,8 +423,6 @@ def write(measured: Mapping[str, Any], folder: Path) -> None:
     """performance.md and performance.png."""
     from gelpump.text import write_text
 
-    levers = folder / "levers.md"
-    seen = "\nWhat made it faster, lever by lever: [levers.md](levers.md).\n"
-    write_text(page(measured, seen if levers.exists() else ""), folder / "performance.md")
+    write_text(page(measured), folder / "performance.md")
     with style.styled():
         style.save(draw(measured["cost"]["problems"]), [folder / "performance.png"])

@@ -173,6 +173,6 @@ def rebuild() -> dict:
             command = [sys.executable, "-m", "snakemake", "--cores", "2", "--quiet", "all"]
             subprocess.run(command, cwd=tree, env=environment, check=True)
 
-        total, _ = forked(build)
+        used = forked(build)
         records = [json.loads(file.read_text(encoding="utf-8")) for file in samples.iterdir()]
-    return summed(records, total)
+    return summed(records, used.seconds) | {"wall": used.wall}

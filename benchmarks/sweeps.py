@@ -78,7 +78,7 @@ def chunk_sizes() -> list[dict]:
     for size in CHUNKS:
         places = (0.1, 0.5, 0.9) if size <= THREE_PLACES else (0.5,)
         runs = [forked(lambda at=at, n=size: solve(_start(at, n), n)) for at in places]
-        seconds, memory = zip(*runs, strict=True)
+        seconds, memory, _ = zip(*runs, strict=True)
         found.append(
             {
                 "designs": size,
@@ -101,7 +101,7 @@ def combining(folder: Path) -> list[dict]:
     base = peak()
     for designs in COMBINED:
         paths = [chunk] * (designs // 250)
-        seconds, memory = forked(
+        seconds, memory, _ = forked(
             lambda paths=paths, n=designs: combine.combine(paths, target, n, "t", {}, {})
         )
         size = target.stat().st_size
@@ -120,7 +120,7 @@ def sampled() -> list[dict]:
     sampling.sample(hypercube(samples=2))  # imports
     base, found = peak(), []
     for count in SAMPLED:
-        seconds, memory = forked(lambda n=count: sampling.sample(hypercube(samples=n)))
+        seconds, memory, _ = forked(lambda n=count: sampling.sample(hypercube(samples=n)))
         found.append({"designs": count, "seconds": seconds, "memory_mb": memory - base})
         print(found[-1], flush=True)
     return found
@@ -133,7 +133,7 @@ def formulae() -> dict:
 
     designs = sampling.sample(hypercube(samples=FORMULAE))
     tubes = Tubes(*(designs[key].values for key in ("ell", "eps", "M", "Pi_ratio", "Phi_inf")))
-    seconds, memory = forked(lambda: deswelling_time(tubes))
+    seconds, memory, _ = forked(lambda: deswelling_time(tubes))
     return {"designs": FORMULAE, "seconds": seconds, "memory_mb": memory}
 
 
@@ -162,7 +162,7 @@ def _snakemake(folder: Path, *arguments: str) -> tuple[float, float]:
             capture_output=True,
         )
 
-    return forked(run)
+    return forked(run)[:2]
 
 
 def planning(folder: Path) -> list[dict]:
@@ -194,7 +194,7 @@ def job(folder: Path, chunks: int = 6, size: int = 10) -> dict:
             solving.solve_designs(here, sweep["tau"], sweep["numerics"])
 
     solve(0, 1)  # imports
-    alone, _ = forked(solves)
+    alone, *_ = forked(solves)
     left = [
         folder / "results/logs/sweep_measured/000000.log",
         folder / "results/provenance/sweep_measured/000000.json",

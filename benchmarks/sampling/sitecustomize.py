@@ -29,8 +29,9 @@ def _begin(folder: str) -> None:
         nonlocal latest, sampling, own
         now = time.process_time()
         frames = sys._current_frames() | ({main: frame} if frame else {})
-        seen = 0.0
         for thread, top in frames.items():
+            if top.f_code.co_filename == threading.__file__:
+                continue  # it waits: what it did before belongs to what it does next
             reached = time.clock_gettime(time.pthread_getcpuclockid(thread))
             spent = reached - clocks.get(thread, 0.0)
             clocks[thread] = reached
@@ -45,9 +46,6 @@ def _begin(folder: str) -> None:
                 top = top.f_back
             key = tuple(reversed(stack))
             seconds[key] = seconds.get(key, 0.0) + spent
-            seen += spent
-        if now - latest > seen:  # of threads that have ended
-            seconds[()] = seconds.get((), 0.0) + now - latest - seen
         latest = time.process_time()
         own = latest - now
         sampling += own
@@ -59,6 +57,7 @@ def _begin(folder: str) -> None:
         told = True
         signal.setitimer(signal.ITIMER_PROF, 0)
         sample(None, None)
+        seconds[()] = time.process_time() - start - sampling - sum(seconds.values())
         stacks = json.dumps([[list(stack), spent] for stack, spent in seconds.items()])
         record = {
             "command": sys.argv,
@@ -92,6 +91,8 @@ def _begin(folder: str) -> None:
     os._exit = leave_now  # which calls no exit handlers
     atexit.register(leave)
     signal.signal(signal.SIGPROF, sample)
+    # a thread that starts a process hands its mask on
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGPROF])
     signal.setitimer(signal.ITIMER_PROF, INTERVAL, INTERVAL)
 
 

@@ -182,3 +182,11 @@ def test_the_page_shows_them():
     assert "| xarray | 1 | 1.5 |" in page.imports_table(found)
     assert "| fig09_relax | 1 | 2.1 | 9.0 | 90 |" in page.rules_table(found)
     assert "figures/fig09_relax.py:draw | 0.5 |" in page.functions_table(found)
+
+
+def test_what_is_left_adds_up():
+    found = profile.summed(records(), 5.0) | {"wall": 4.0}
+    shown = page.left(found, {"plan": 1.5})
+    assert "| 2 interpreters and their imports | 2.3 |" in shown
+    assert "| Snakemake's plan and schedule | 2.0 |" in shown
+    assert "| **all** | **4.8** |" in shown

@@ -4,7 +4,7 @@
 
 Each fault prints a line: held, BROKEN and how, or skipped and why.  Exit status 1 if one broke.
 When the minutes are over no further build is killed and no further fault begun; what was left out
-is printed as skipped.
+is printed as skipped.  With ``--record FILE`` the lines take their place in that file.
 """
 
 import argparse
@@ -24,6 +24,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from clone import Clone
+from recorded import record, table
 
 TINY = Path(__file__).with_name("tiny.yaml")
 DATASETS = (
@@ -424,6 +425,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--kills", type=int, default=20)
     parser.add_argument("--minutes", type=float, default=6.0)
+    parser.add_argument("--record", type=Path)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("faults", nargs="*", metavar="FAULT", help=f"of {', '.join(FAULTS)}")
     arguments = parser.parse_args()
@@ -431,7 +433,7 @@ def main() -> int:
     if unknown:
         parser.error(f"no such fault: {', '.join(sorted(unknown))}")
     arguments.deadline = time.monotonic() + 60.0 * arguments.minutes
-    broken = 0
+    broken, rows = 0, []
     with tempfile.TemporaryDirectory(prefix="faults-") as scratch:
         folder = Path(scratch)
         undisturbed = Site(folder / "undisturbed")
@@ -451,6 +453,12 @@ def main() -> int:
                 outcome = f"BROKEN   {problem}"
                 broken += 1
             print(f"{name:12s} {time.monotonic() - started:4.0f} s  {outcome}", flush=True)
+            did = (FAULTS[name].__doc__ or "").partition("\n\n")[0]
+            rows.append([name, did, *outcome.split(maxsplit=1)])
+    if arguments.record:
+        counted = f"{len(rows) - broken} of {len(rows)} faults left a build with the same bytes."
+        heads = ["fault", "what was done", "outcome", "what was seen"]
+        record(arguments.record, "faults", counted, table(heads, rows))
     return int(broken > 0)
 
 

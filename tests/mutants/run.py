@@ -3,7 +3,8 @@
     python tests/mutants/run.py --minutes 8
 
 Prints a table; exit status 1 if a mutant survives, or if a test fails without any mutant.  What the
-minutes do not suffice for is printed as not tried, and is a failure too.
+minutes do not suffice for is printed as not tried, and is a failure too.  With ``--record FILE``
+the table, with what the failing tests said, takes its place in that file.
 """
 
 import argparse
@@ -17,6 +18,10 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from queue import SimpleQueue
 from typing import NamedTuple
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from recorded import record, table
 
 PROJECT = Path(__file__).resolve().parents[2]
 PARTS = ("Snakefile", "config", "profiles", "workflow", "src", "tests", "pyproject.toml")
@@ -150,8 +155,8 @@ MUTANTS = (
     Mutant(
         "surface not free of stress",
         NONLINEAR,
-        "np.append(self.radial_stress(f, l_t), 0.0)",
-        "np.append(self.radial_stress(f, l_t), 0.1)",
+        "stress, square, face = np.zeros(cells + 1)",
+        "stress, square, face = np.full(cells + 1, 0.1)",
         TEST_NONLINEAR,
     ),
     Mutant(
@@ -343,6 +348,48 @@ MUTANTS = (
         "elif name.value in ():",
         "tests/hostile/test_hostile_config.py -m evidence -k seem",
     ),
+    Mutant(
+        "code in a template",
+        "src/gelpump/config.py",
+        'elif name.value == "__use_yte__":',
+        'elif name.value == "__use_jinja__":',
+        "tests/test_config.py -k command_line",
+    ),
+    Mutant(
+        "the older of two records counts",
+        "src/gelpump/verify/manifest.py",
+        "for record in records for path",
+        "for record in reversed(records) for path",
+        "tests/verify/test_manifest.py",
+    ),
+    Mutant(
+        "an altered output is taken for a newer one",
+        "src/gelpump/verify/integrity.py",
+        'made[path]["outputs"][path]["sha256"] == found[path]',
+        'made[path]["outputs"][path]["sha256"] != found[path]',
+        "tests/verify/test_manifest.py",
+    ),
+    Mutant(
+        "the convergence index is too small",
+        "src/gelpump/uncertainty.py",
+        "return SAFETY * after * ratio / (ratio - 1.0)",
+        "return SAFETY * after / (ratio - 1.0)",
+        "tests/test_uncertainty.py",
+    ),
+    Mutant(
+        "a quadrature without its error",
+        "src/gelpump/uncertainty.py",
+        "np.abs(value - formula(fewer))",
+        "np.abs(value - formula(nodes))",
+        "tests/test_uncertainty.py",
+    ),
+    Mutant(
+        "the front's jump in the radial flow is left out",
+        "src/gelpump/tube/flow.py",
+        "np.max([speed.max(axis=-1), *sides], axis=0)",
+        "np.max([speed.max(axis=-1)], axis=0)",
+        "tests/tube/test_flow.py -k fastest",
+    ),
 )
 
 
@@ -362,8 +409,8 @@ class Copies:
                     shutil.copy2(PROJECT / part, copy / part)
             self.free.put(copy)
 
-    def caught(self, mutant: Mutant | None, tests: str) -> bool:
-        """Whether a test fails, or none ends in time, with this bug."""
+    def caught(self, mutant: Mutant | None, tests: str) -> str:
+        """What a test says that fails, or that none ends in time, with this bug; else nothing."""
         copy = self.free.get()
         file = copy / mutant.file if mutant else None
         original = file.read_text() if file else ""
@@ -379,10 +426,10 @@ class Copies:
             self.free.put(copy)
 
     @staticmethod
-    def fails(copy: Path, tests: str) -> bool:
+    def fails(copy: Path, tests: str) -> str:
         files, _, chosen = tests.partition(" -k ")
         command = [sys.executable, "-B", "-m", "pytest", "-x", "-q", "-n", "0", *files.split()]
-        command += ["-p", "no:cacheprovider"]
+        command += ["-p", "no:cacheprovider", "--color=no"]
         if chosen:
             command += ["-k", chosen.replace("|", " or ")]
         try:
@@ -396,29 +443,36 @@ class Copies:
                 check=False,
             )
         except subprocess.TimeoutExpired:
-            return True
+            return f"no end after {SECONDS:.0f} s"
         if result.returncode not in (0, 1):  # neither passed nor failed: nothing was tested
             raise RuntimeError(f"pytest {tests}:\n{result.stdout[-2000:]}{result.stderr[-500:]}")
-        return result.returncode == 1
+        if result.returncode == 0:
+            return ""
+        lines = [line for line in result.stdout.splitlines() if line.startswith("FAILED ")]
+        _, _, failed = lines[0].partition("::") if lines else ("", "", "a test")
+        reasons = [line[1:].strip() for line in result.stdout.splitlines() if line[:2] == "E "]
+        return f"{failed.partition(' - ')[0]}: {reasons[0] if reasons else 'fails'}"
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--minutes", type=float, default=8.0)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--record", type=Path)
     parser.add_argument("words", nargs="*", help="try only bugs with one of these in their name")
     arguments = parser.parse_args()
     words = arguments.words or [""]
     mutants = [mutant for mutant in MUTANTS if any(word in mutant.bug for word in words)]
     deadline = time.monotonic() + 60.0 * arguments.minutes
 
-    def verdict(mutant: Mutant) -> str:
+    def verdict(mutant: Mutant) -> tuple[str, str]:
         if time.monotonic() > deadline:
-            return "not tried"
+            return "not tried", ""
         try:
-            return "caught" if copies.caught(mutant, mutant.tests) else "SURVIVED"
+            said = copies.caught(mutant, mutant.tests)
         except (LookupError, RuntimeError) as problem:
-            return f"ERROR {problem}"
+            return "ERROR", str(problem)
+        return ("caught" if said else "SURVIVED"), said
 
     with (
         tempfile.TemporaryDirectory(prefix="mutants-") as folder,
@@ -435,13 +489,19 @@ def main() -> int:
         ]
         for tests in failing:
             print(f"fails without any bug: pytest {tests}")
-        verdicts = []
-        for mutant, found in zip(mutants, pool.map(verdict, mutants), strict=True):
+        verdicts, rows = [], []
+        for mutant, (found, said) in zip(mutants, pool.map(verdict, mutants), strict=True):
             verdicts.append(found)
             file = mutant.file.removeprefix("src/gelpump/")
-            print(f"{found:9s} {mutant.bug:42s} {file:30s} {mutant.tests}", flush=True)
+            print(f"{found:9s} {mutant.bug:42s} {file:30s} {said[:160]}", flush=True)
+            change = f"`{' '.join(mutant.text.split())}` to `{' '.join(mutant.wrong.split())}`"
+            rows.append([mutant.bug, file, change, found, said])
     caught = verdicts.count("caught")
     print(f"{caught} of {len(mutants)} mutants caught")
+    if arguments.record:
+        heads = ["deliberate bug", "file", "changed", "verdict", "what the test said"]
+        counted = f"{caught} of {len(mutants)} deliberate bugs were caught."
+        record(arguments.record, "mutants", counted, table(heads, rows))
     return int(bool(failing) or caught < len(mutants))
 
 

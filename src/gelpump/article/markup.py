@@ -5,7 +5,7 @@ Only the LaTeX that `notation` writes is known here; anything else is refused, n
 
 import re
 
-from gelpump.report.notation import LITERAL, MATH, TEXT, Run, Text
+from gelpump.report.notation import LITERAL, MATH, TEXT, Run, Text, with_mathematics
 
 SYMBOLS = {
     "phi": "φ",
@@ -69,6 +69,17 @@ def typographic(text: str) -> str:
 def runs(text: Text) -> list[list[str]]:
     """The runs as pairs of kind and content, their mathematics Typst's."""
     return [_run(run) for run in text]
+
+
+def caption(text: Text) -> list[list[str]]:
+    """The runs of a caption, with the mathematics of its plain text where Typst can set it."""
+    pairs = []
+    for run in text:
+        try:
+            pairs += runs(with_mathematics([run]))
+        except ValueError:  # letters that stand in no formula can be read as they are
+            pairs += runs([run])
+    return pairs
 
 
 def _run(run: Run):

@@ -8,7 +8,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from gelpump.article.markup import plain, runs
+from gelpump.article.markup import caption, plain, runs
 from gelpump.report.content import Content, Figure
 from gelpump.report.notation import from_plain
 
@@ -167,13 +167,14 @@ def _figure(figure, ledger):
         "number": figure.number,
         "title": figure.title,
         "alt": figure.alt,
-        "caption": [runs(paragraph) for paragraph in figure.caption],
+        "caption": [caption(paragraph) for paragraph in figure.caption],
         "judged": plain(" ".join(parts)),
         "numbers": [
             {
                 "quantity": runs(each.quantity),
                 "printed": runs(from_plain(re.sub(r"(?<!\w)-(?=\d)", "−", each.printed))),
                 "unit": runs(each.unit),
+                "source": each.source,
             }
             for each in figure.numbers
         ],
@@ -183,7 +184,7 @@ def _figure(figure, ledger):
 def _table(table):
     return {
         "number": table.number,
-        "caption": [runs(paragraph) for paragraph in table.caption],
+        "caption": [caption(paragraph) for paragraph in table.caption],
         "heading": table.heading,
         "rows": table.rows,
     }

@@ -122,6 +122,16 @@ def from_rst(source: str) -> list[Text]:
     ]
 
 
+def with_mathematics(text: Text) -> Text:
+    """The runs of a caption, with the mathematics of its plain text found."""
+    return [
+        each
+        for run in text
+        # k_BT: two letters that are not one subscript
+        for each in (from_plain(run.text.replace("k_BT", "k_B T")) if run.kind == TEXT else [run])
+    ]
+
+
 def plain(text: Text) -> str:
     """The text without any markup; mathematics stays LaTeX."""
     return "".join(run.text for run in text)

@@ -121,7 +121,7 @@ class BeadExplorer extends Explorer {
 
   drawProfile(context, width, height) {
     const at = axes(context, width, height, {
-      x: linear(0, 1.05 * this.most), y: linear(0, 1.08 * this.high), xLabel: "r/R_dry", yLabel: "polymer fraction φ",
+      x: linear(0, 1.05 * this.most), y: linear(0, 1.08 * this.high), xLabel: "r/R_{dry}", yLabel: "polymer fraction φ",
     });
     clipped(context, at.box, () => {
       MODELS.forEach((model) => {
@@ -148,7 +148,7 @@ class BeadExplorer extends Explorer {
     const last = this.t[this.t.length - 1];
     const start = this.t.find((t) => t > 0);
     const x = this.logarithmic ? logarithmic(start, last) : linear(0, last);
-    const at = axes(context, width, height, { x, y: linear(0, 1.08 * this.most), xLabel: "time t", yLabel: "radius a/R_dry" });
+    const at = axes(context, width, height, { x, y: linear(0, 1.08 * this.most), xLabel: "time t", yLabel: "radius a/R_{dry}" });
     clipped(context, at.box, () => {
       for (const model of MODELS) {
         const { t, radius } = this.bead.models[model];

@@ -113,8 +113,15 @@ class GelExplorer extends Explorer {
     const low = Math.min(smallest(Pi_coldest), smallest(Pi_hottest));
     const most = largest(this.gels[this.name].T_equilibrium.map((T, i) => (T > this.cold && T < this.hot ? phi[i] : 0)));
     const at = axes(context, width, height, {
-      x: linear(0, Math.min(1, 1.25 * most)), y: linear(1.3 * low, -2.2 * low), xLabel: "polymer fraction φ", yLabel: "osmotic pressure Π (k_BT/Ω_f)", left: 66,
+      x: linear(0, Math.min(1, 1.25 * most)), y: linear(1.3 * low, -2.2 * low), xLabel: "polymer fraction φ", yLabel: "osmotic pressure Π (k_{B}T/Ω_{f})", left: 66,
     });
+    this.drawCurves(context, at);
+    words(context, `${this.name}, ${this.T.toFixed(2)} K`, at.box.left + 10, at.box.top + 15, { colour: themed("link"), size: 14 });
+    this.drawNear(context, at.box);
+  }
+
+  drawCurves(context, at) {
+    const { phi, Pi_coldest, Pi_hottest } = this.gel;
     clipped(context, at.box, () => {
       line(context, at, [0, 1], [0, 0], { colour: themed("soft"), width: 1 });
       const xs = Array.from(phi);
@@ -126,7 +133,25 @@ class GelExplorer extends Explorer {
         dot(context, at.x(each.phi), at.y(0), { colour: themed(here ? "deviates" : "ink"), fill: each.stable ? themed(here ? "deviates" : "ink") : themed("paper"), size: here ? 5.5 : 3.6 });
       }
     });
-    words(context, `${this.name}, ${this.T.toFixed(2)} K`, at.box.left + 10, at.box.top + 15, { colour: themed("link"), size: 14 });
+  }
+
+  // The pressure about the equilibrium, magnified: a swollen gel's is a hundred times smaller.
+  drawNear(context, { left, right, top, bottom }) {
+    const [low, high] = [0.3 * this.branch, Math.min(1.7 * this.branch, 0.99)];
+    const near = Array.from(this.gel.phi, (phi, i) => (phi > low && phi < high ? Math.abs(this.pressure(i)) : 0));
+    const most = largest(near);
+    if (!(most > 0)) return;
+    const power = 10 ** Math.floor(Math.log10(most));
+    const size = [1, 2, 5, 10].map((factor) => factor * power).find((each) => each >= most);
+    const [x, y] = [left + 12, top + 28];
+    const [width, height] = [Math.min(0.56 * (right - left), 220), 0.4 * (bottom - top)];
+    context.save();
+    context.translate(x, y);
+    context.fillStyle = themed("paper");
+    context.fillRect(0, 0, width, height);
+    const at = axes(context, width, height, { x: linear(low, high), y: linear(-size, size), xLabel: "", yLabel: "", left: 58, bottom: 20, top: 4, right: 8 });
+    this.drawCurves(context, at);
+    context.restore();
   }
 
   drawPlane(context, width, height) {

@@ -80,14 +80,34 @@ function axes(context, width, height, { x, y, xLabel, yLabel, left = 52, bottom 
   context.font = `italic 14px ${SERIF}`;
   context.textAlign = "center";
   context.textBaseline = "bottom";
-  context.fillText(xLabel, (box.left + box.right) / 2, height - 1);
+  lettered(context, xLabel, (box.left + box.right) / 2, height - 3);
   context.save();
   context.translate(13, (box.top + box.bottom) / 2);
   context.rotate(-Math.PI / 2);
   context.textBaseline = "middle";
-  context.fillText(yLabel, 0, 0);
+  lettered(context, yLabel, 0, 0);
   context.restore();
   return at;
+}
+
+// A centred label whose subscripts, as in R_{dry}, are lowered.
+function lettered(context, text, x, y) {
+  const font = context.font;
+  const small = font.replace(/\d+px/, "10px");
+  const pieces = text.split(/_\{(.*?)\}/).map((piece, i) => {
+    context.font = i % 2 ? small : font;
+    return { piece, lowered: i % 2, width: context.measureText(piece).width };
+  });
+  let at = x - pieces.reduce((sum, each) => sum + each.width, 0) / 2;
+  const align = context.textAlign;
+  context.textAlign = "left";
+  for (const { piece, lowered, width } of pieces) {
+    context.font = lowered ? small : font;
+    context.fillText(piece, at, y + (lowered ? 4 : 0));
+    at += width;
+  }
+  context.font = font;
+  context.textAlign = align;
 }
 
 function clipped(context, { left, right, top, bottom }, draw) {

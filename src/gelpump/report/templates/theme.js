@@ -5,9 +5,18 @@ const themeListeners = [];
 
 const isDark = () => (root.dataset.theme ? root.dataset.theme === "dark" : systemIsDark.matches);
 
-const themed = (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim();
+// The colour that a name of page.css has now; a canvas does not know of names.
+const known = new Map();
+function themed(name) {
+  if (!known.has(name)) {
+    root.style.setProperty("outline-color", `var(--${name})`);
+    known.set(name, getComputedStyle(root).outlineColor);
+  }
+  return known.get(name);
+}
 
 function themeChanged() {
+  known.clear();
   document.getElementById("theme").textContent = isDark() ? "Light" : "Dark";
   document.getElementById("theme").setAttribute("aria-label", `Switch to ${isDark() ? "light" : "dark"} colours`);
   themeListeners.forEach((listener) => listener());

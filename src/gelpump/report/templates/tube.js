@@ -1,5 +1,6 @@
 // A tube that collapses behind a pulse of heat, and the flow in its wall and its lumen.
 const TUBE_SECONDS = 7; // of the whole course
+const TUBE_CLOSE = 0.1; // of the close view, to either side of the front, in L
 const TUBE_CELLS = ["Phi1", "U_outer", "V_g", "V_printed", "V_continuous"];
 
 class TubeExplorer extends Explorer {
@@ -20,6 +21,7 @@ class TubeExplorer extends Explorer {
       this.frame = i;
       this.show();
     });
+    this.control("close").addEventListener("change", () => this.paint());
     this.canvas("section", (...all) => this.drawSection(...all));
     this.canvas("velocity", (...all) => this.drawVelocity(...all));
     this.show();
@@ -40,6 +42,12 @@ class TubeExplorer extends Explorer {
     const before = Math.floor(this.frame);
     const share = this.frame - before;
     return share ? Z_C[before] + share * (Z_C[before + 1] - Z_C[before]) : Z_C[before];
+  }
+
+  // What is shown of the axis.
+  range() {
+    const front = this.front();
+    return this.control("close").checked ? [front - TUBE_CLOSE, front + TUBE_CLOSE] : [0, this.end];
   }
 
   show() {
@@ -73,7 +81,7 @@ class TubeExplorer extends Explorer {
   drawSection(context, width, height) {
     const ell = this.tubes.ell[this.ell];
     const at = axes(context, width, height, {
-      x: linear(0, this.end), y: linear(-1.14, 1.14), xLabel: "axial position Z = z/L", yLabel: "radius R = r/a₁", top: 26,
+      x: linear(...this.range()), y: linear(-1.14, 1.14), xLabel: "axial position Z = z/L", yLabel: "radius R = r/a₁", top: 26,
     });
     const Z = this.now("Z");
     const Phi1 = this.now("Phi1");
@@ -81,7 +89,8 @@ class TubeExplorer extends Explorer {
     const Phi_inf = this.tubes.Phi_inf[this.ell];
     const radius = (i) => Math.cbrt(1 / Phi1[i]);
     clipped(context, at.box, () => {
-      const edge = (i) => (i < 0 ? 0 : i >= count ? this.end : Z[i]);
+      const [start, end] = [Math.min(0, this.range()[0]), Math.max(this.end, this.range()[1])];
+      const edge = (i) => (i < 0 ? start : i >= count ? end : Z[i]);
       const cell = (i) => Math.max(0, Math.min(count - 1, i));
       for (const side of [1, -1]) {
         for (let i = -1; i < count; i++) {
@@ -96,10 +105,10 @@ class TubeExplorer extends Explorer {
           context.fill();
         }
         for (const inner of [1, ell]) {
-          const xs = [0, ...Z, this.end];
+          const xs = [start, ...Z, end];
           const ys = [radius(0), ...Array.from(Z, (_, i) => radius(i)), radius(count - 1)].map((r) => side * inner * r);
           line(context, at, xs, ys, { colour: themed("ink"), width: 1.1 });
-          line(context, at, [0, this.end], [side * inner, side * inner], { colour: themed("soft"), width: 1, dash: [1.5, 4] });
+          line(context, at, [start, end], [side * inner, side * inner], { colour: themed("soft"), width: 1, dash: [1.5, 4] });
         }
       }
       const front = at.x(this.front());
@@ -121,31 +130,34 @@ class TubeExplorer extends Explorer {
     const scaleR = at.y(0) - at.y(1);
     const [U, V_g, V] = ["U_outer", "V_g", "V_printed"].map((name) => this.now(name));
     const R = Z.map((_, i) => radius(i));
-    const spacing = Math.max(22, (at.box.right - at.box.left) / 30);
     const front = at.x(this.front());
-    const places = [];
-    for (let x = front - spacing / 2; x > at.box.left; x -= spacing) places.push(x);
-    for (let x = front + spacing / 2; x < at.box.right; x += spacing) places.push(x);
+    const [from] = this.range();
+    const places = (spacing) => {
+      const found = [];
+      for (let x = front - spacing / 2; x > at.box.left; x -= spacing) found.push(x);
+      for (let x = front + spacing / 2; x < at.box.right; x += spacing) found.push(x);
+      return found.filter((x) => x > at.x(0)).map((x) => [x, from + (x - at.box.left) / scaleZ]);
+    };
+    const wide = at.box.right - at.box.left;
     const wall = [];
-    const lumen = [];
-    for (const x of places) {
-      const z = (x - at.box.left) / scaleZ;
+    for (const [x, z] of places(Math.max(15, wide / 56))) {
       const [u, v, r] = [sample(U, z), sample(V_g, z), sample(R, z)];
       // U_g is linear across the wall, and vanishes in its middle
-      for (const depth of [0.8, -0.8]) {
+      for (const depth of [0.85, 0.3, -0.3, -0.85]) {
         const s = (1 + ell) / 2 + (depth * (1 - ell)) / 2;
         wall.push([x, s * r, v * scaleZ, -depth * u * scaleR]);
       }
-      lumen.push([x, 0, sample(V, z) * scaleZ, 0]);
     }
+    const apart = Math.max(22, wide / 30);
+    const lumen = places(apart).map(([x, z]) => [x, 0, sample(V, z) * scaleZ, 0]);
     for (const [kind, look, longest] of [
-      [wall, { colour: "#ffffff", edge: "#000000", width: 1.4 }, 26],
-      [lumen, { colour: themed("link"), width: 2 }, Math.min(46, 1.6 * spacing)],
+      [wall, { colour: "#ffffff", edge: "#000000", width: 1.2 }, 20],
+      [lumen, { colour: themed("link"), width: 2 }, Math.min(46, 1.6 * apart)],
     ]) {
       const size = largest(kind.map(([, , dx, dy]) => Math.hypot(dx, dy)));
       if (!(size > 0)) continue;
       for (const [x, R, dx, dy] of kind) {
-        if (Math.hypot(dx, dy) < 0.08 * size) continue;
+        if (Math.hypot(dx, dy) < 0.12 * size) continue;
         const [ax, ay] = [(dx / size) * longest, (dy / size) * longest];
         arrow(context, x, at.y(R), ax, ay, look);
         if (kind === wall) arrow(context, x, at.y(-R), ax, -ay, look);
@@ -158,13 +170,14 @@ class TubeExplorer extends Explorer {
     const top = 1.25 * high[this.ell];
     const bottom = Math.max(low[this.ell], -0.5 * top) * 1.15;
     const at = axes(context, width, height, {
-      x: linear(0, this.end), y: linear(bottom, top), xLabel: "axial position Z = z/L", yLabel: "lumen velocity V",
+      x: linear(...this.range()), y: linear(bottom, top), xLabel: "axial position Z = z/L", yLabel: "lumen velocity V",
     });
     const Z = this.now("Z");
-    const extended = (values) => [0, ...values, values[values.length - 1]];
-    const xs = [0, ...Z, this.end];
+    const extended = (values) => [values[0], ...values, values[values.length - 1]];
+    const [start, end] = [Math.min(0, this.range()[0]), Math.max(this.end, this.range()[1])];
+    const xs = [start, ...Z, end];
     clipped(context, at.box, () => {
-      line(context, at, [0, this.end], [0, 0], { colour: themed("soft"), width: 1 });
+      line(context, at, [start, end], [0, 0], { colour: themed("soft"), width: 1 });
       for (const [name, dash, colour] of [
         ["V_continuous", [], data.colours.cases[2]],
         ["V_printed", [7, 4], themed("link")],

@@ -1,10 +1,10 @@
 """Full pulse solves of many designs, each with a result or a stated reason why there is none.
 
 The designs of a chunk are families of at most FAMILY, each on one mesh (`gelpump.tube.slender`);
-larger ones would be no cheaper (docs/sweeps.md). Should a family fail, it is divided into halves
-until the tube that fails is alone; alone it is tried once more, with more cells and other steps,
-and flagged if that fails too. A result that breaks its own conservation of water, or leaves [1,
-Phi_inf], by more than DOUBTFUL is kept and flagged.
+larger ones would hardly be cheaper (docs/sweeps.md). Should a family fail, it is divided into
+halves until the tube that fails is alone; alone it is tried once more, with more cells and other
+steps, and flagged if that fails too. A result that breaks its own conservation of water, or leaves
+[1, Phi_inf], by more than DOUBTFUL is kept and flagged.
 """
 
 from collections.abc import Mapping

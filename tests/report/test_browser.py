@@ -80,12 +80,23 @@ def test_no_request_leaves_the_machine(show):
     assert [url for url in urls if not url.startswith(("file:", "data:", "blob:"))] == []
 
 
-def test_the_first_figure_is_there_within_a_second(show):
-    paint = show().execute_script(
+def test_the_first_figure_is_there_within_a_second(show, page):
+    """What stands before it is small; the browser's own measure is told, and only has to be sane:
+    a machine that does much else may be slow."""
+    browser = show()
+    paint = browser.execute_script(
         "return performance.getEntriesByName('first-contentful-paint')[0].startTime"
     )
     print(f"first contentful paint after {paint:.0f} ms")
-    assert paint > 0
+    assert 0 < paint < 10_000
+    images = "return [...document.images].map((image) => [image.loading, image.complete])"
+    (loading, complete), *others = browser.execute_script(images)
+    assert (loading, complete) == ("auto", True)
+    assert all(loading == "lazy" for loading, _ in others)
+    text = page.read_text(encoding="utf-8")
+    assert text.index("</figure>") < 1_000_000
+    assert text.index('id="data"') > text.rindex("</figure>"), "explorers' data come last"
+    assert len(text) < 8_000_000
 
 
 def test_the_tube_shows_the_numbers_of_its_dataset(show, built):
@@ -114,6 +125,29 @@ def test_the_tube_shows_the_numbers_of_its_dataset(show, built):
                 assert told == pytest.approx(float(same[f"V_front_{form}"]), rel=6e-4)
         pictures.add(browser.execute_script(PICTURE, '#explore-tube [data-canvas="section"]'))
     assert len(pictures) == 3
+
+
+def test_the_front_can_be_seen_close_up(show):
+    browser = show()
+    whole = browser.execute_script(PICTURE, '#explore-tube [data-canvas="section"]')
+    box = browser.find_element("css selector", '#explore-tube [data-control="close"]')
+    box.send_keys(" ")
+    assert box.is_selected()
+    assert browser.execute_script(PICTURE, '#explore-tube [data-canvas="section"]') != whole
+
+
+@pytest.mark.parametrize("choice", ["light", "dark"])
+def test_the_readers_choice_of_colours_reaches_the_canvases(show, choice):
+    other = {"light": "dark", "dark": "light"}[choice]
+    browser = show(scheme=other)
+    ink = """return [getComputedStyle(document.body).color,
+      document.querySelector("#explore-tube canvas").toDataURL()]"""
+    before = browser.execute_script(ink)
+    browser.find_element("css selector", "#theme").click()
+    after = browser.execute_script(ink)
+    assert before[0] != after[0]
+    assert before[1] != after[1]
+    assert browser.execute_script("return document.documentElement.dataset.theme") == choice
 
 
 def test_the_bead_shows_the_numbers_of_its_dataset(show, built):

@@ -172,13 +172,18 @@ def _figure(figure, ledger):
         "numbers": [
             {
                 "quantity": runs(each.quantity),
-                "printed": runs(from_plain(re.sub(r"(?<!\w)-(?=\d)", "−", each.printed))),
+                "printed": number(each.printed),
                 "unit": runs(each.unit),
                 "source": each.source,
             }
             for each in figure.numbers
         ],
     }
+
+
+def number(text: str):
+    """One number or several, as a printer sets them: with a minus sign and powers of ten."""
+    return runs(from_plain(re.sub(r"(?<!\w)-(?=\d)", "−", text)))
 
 
 def _table(table):
@@ -195,8 +200,8 @@ def _claim(claim):
         "number": claim.number,
         "where": claim.where,
         "statement": runs(claim.statement),
-        "published": claim.published,
-        "computed": claim.computed,
+        "published": number(claim.published),
+        "computed": number(claim.computed),
         "measured": runs(claim.measured),
         "deviation": claim.deviation_text,
         "status": claim.status,
@@ -210,8 +215,8 @@ def _disagreement(rank, entry):
         "printed": runs(entry.printed),
         "follows": runs(entry.follows),
         "measured": runs(entry.measured),
-        "size": entry.size,
-        "allowed": entry.allowed,
+        "size": number(entry.size),
+        "allowed": number(entry.allowed),
         "found": entry.found,
         "code": entry.code.removeprefix("gelpump.ledger."),
     }
@@ -222,10 +227,10 @@ def _study(study):
         "problem": study["problem"],
         "quantity": runs(from_plain(study["quantity"])),
         "finest": f"{study['resolutions'][-1]} {study['against']}" if study["against"] else "–",
-        "error": f"{study['errors'][-1]:.1e}",
+        "error": number(f"{study['errors'][-1]:.1e}"),
         "orders": ", ".join(f"{order:.2f}" for order in study["orders"]) or "–",
         "least": "–" if study["least_order"] is None else f"{study['least_order']:g}",
-        "bound": f"{study['bound']:.0e}",
+        "bound": number(f"{study['bound']:.0e}"),
         "verdict": "passes" if study["passes"] else "fails",
     }
 
@@ -234,9 +239,9 @@ def _comparison(row):
     return {
         "quantity": runs(from_plain(row["quantity"])),
         "at": runs(from_plain(row["at"])),
-        "difference": f"{row['difference']:.1e}",
-        "first": f"{row['uncertainty_fipy']:.1e}",
-        "second": f"{row['uncertainty_second']:.1e}",
-        "limit": f"{row['limit']:.1e}",
+        "difference": number(f"{row['difference']:.1e}"),
+        "first": number(f"{row['uncertainty_fipy']:.1e}"),
+        "second": number(f"{row['uncertainty_second']:.1e}"),
+        "limit": number(f"{row['limit']:.1e}"),
         "verdict": "agrees" if row["agrees"] else "differs",
     }

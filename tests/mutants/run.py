@@ -451,7 +451,7 @@ class Copies:
         lines = [line for line in result.stdout.splitlines() if line.startswith("FAILED ")]
         _, _, failed = lines[0].partition("::") if lines else ("", "", "a test")
         reasons = [line[1:].strip() for line in result.stdout.splitlines() if line[:2] == "E "]
-        return f"{failed.partition(' - ')[0]}: {reasons[0] if reasons else 'fails'}"
+        return f"{failed.partition(' - ')[0]}: {' '.join(filter(None, reasons[:4])) or 'fails'}"
 
 
 def main() -> int:

@@ -145,7 +145,10 @@ class Bead:
     def surface(self, l_t: float) -> Surface:
         """Stress-free surface at hoop stretch l_t, on the last one's interval of E > 0."""
         last, l_t_last, power = self.followed
-        f = last * (l_t / l_t_last) ** power
+        ratio = l_t / l_t_last
+        if not 0.5 < ratio < 2:  # CVODE also tries beads that are turned inside out
+            return self._search(l_t)
+        f = last * ratio**power
         if not abs(f - last) < 0.05 * last * (1 - last):
             return self._search(l_t)
         for _ in range(10):

@@ -167,7 +167,7 @@ def _lever(name: str, instead: str, where: str, with_: float, other: float | Non
 
 def _seconds(problem, name: str, run: Callable, settings: Sequence[tuple]) -> float | None:
     """CPU seconds at the target error; None if no run comes near it."""
-    found = cost.ladder(problem, name, run, settings)
+    found = cost.ladder(problem, name, run, settings, repeats=2)
     done = [each["error"] for each in found["runs"] if "error" in each]
     return found["seconds"] if done and min(done) < cost.FAR * cost.TARGET else None
 
@@ -332,9 +332,9 @@ def of_jobs() -> list[dict]:
         _lever(
             "scripts",
             "run: blocks",
-            "16 jobs that do nothing",
-            forked(lambda: empty_jobs(16)).seconds,
-            forked(lambda: empty_jobs(16, body="run: open(output[0], 'w').close()")).seconds,
+            "8 jobs that do nothing",
+            forked(lambda: empty_jobs(8)).seconds,
+            forked(lambda: empty_jobs(8, body="run: open(output[0], 'w').close()")).seconds,
         ),
     ]
     return rows

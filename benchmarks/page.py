@@ -378,8 +378,9 @@ is called linear.
 {growth_reasons(measured["growth"])}
 ## Levers
 
-What makes it fast, each left out alone. For beads and tubes: CPU seconds at an error of {TARGET:g},
-interpolated as above; for what is around them, of what is named.
+What was done to make it fast, each left out alone: a factor of 1 says that it is worth nothing on
+this problem at this error. For beads and tubes: CPU seconds at an error of {TARGET:g}, interpolated
+as above, the lesser of two runs; for what is around them, of what is named.
 
 {levers_table(measured["levers"])}
 ## A rebuild
@@ -393,7 +394,7 @@ interpolated as above; for what is around them, of what is named.
 def draw(problems: Sequence[Mapping[str, Any]]):
     """Work-precision diagrams, one panel a problem."""
     fig = style.figure(height=5.6)
-    axes = fig.subplots(3, 2, sharey=True).ravel()
+    axes = fig.subplots(3, 2, sharex=True, sharey=True).ravel()
     handles = {}
     for letter, axis, record in zip("abcdef", axes, problems, strict=False):
         for each in record["tools"]:

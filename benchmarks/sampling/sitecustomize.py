@@ -20,14 +20,17 @@ INTERVAL = 0.004  # s of CPU time; the kernel's clock does not tick much faster
 
 def _begin(folder: str) -> None:
     start = latest = time.process_time()  # all of it was the interpreter's own start
-    born, process, sampling, told = time.monotonic(), os.getpid(), 0.0, False
+    born, process, sampling = time.monotonic(), os.getpid(), 0.0
+    busy = told = False
     main = threading.get_ident()
-    clocks, own = {main: start}, 0.0  # CPU time of each thread at the last sample; spent on that
+    clocks, own = {main: start}, 0.0  # CPU time of each thread when last seen; spent on seeing
     seconds: dict[tuple[str, ...], float] = {}
 
     def sample(_, frame):
-        nonlocal latest, sampling, own
-        now = time.process_time()
+        nonlocal latest, sampling, own, busy
+        if busy:  # the next signal came before this one was done with
+            return
+        busy, now = True, time.process_time()
         frames = sys._current_frames() | ({main: frame} if frame else {})
         for thread, top in frames.items():
             if top.f_code.co_filename == threading.__file__:
@@ -37,7 +40,7 @@ def _begin(folder: str) -> None:
             clocks[thread] = reached
             spent = reached if spent < 0 else spent  # a new thread under an old one's name
             if thread == main:
-                spent -= own
+                spent, own = spent - own, 0.0
             if spent <= 0.0:
                 continue
             stack = []
@@ -47,8 +50,9 @@ def _begin(folder: str) -> None:
             key = tuple(reversed(stack))
             seconds[key] = seconds.get(key, 0.0) + spent
         latest = time.process_time()
-        own = latest - now
-        sampling += own
+        own += latest - now
+        sampling += latest - now
+        busy = False
 
     def leave():
         nonlocal told

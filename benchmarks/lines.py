@@ -18,6 +18,7 @@ from benchmarks.problems import Bead, Drop, Tubes
 from gelpump.bead import nonlinear
 
 THINNEST_SHARE = 0.01  # as gelpump.bead.nonlinear has it
+MOST_STEPS = 20  # of Newton's method at a bead's surface
 
 
 class System(Protocol):
@@ -140,7 +141,8 @@ class LensLines:
         # the branch of the surface: D > 0 between the spinodal's fractions
         roots = gel.spinodal_polymer_fractions(T)
         below, above = roots[roots < problem.phi_initial], roots[roots > problem.phi_initial]
-        self.branch = below.max(initial=1e-9), above.min(initial=1 - 1e-12)
+        self.branch = float(below.max(initial=1e-9)), float(above.min(initial=1 - 1e-12))
+        self.phi_s = float(problem.phi_initial)
 
     def load(self, phi):
         """Omega Pi + 4 phi^(1/3), which is 4/a at the surface."""
@@ -148,7 +150,20 @@ class LensLines:
         return phi + 3 * math.cbrt(phi) + self.Omega * mixing
 
     def surface(self, a):
-        return brentq(lambda phi: self.load(phi) - 4 / a, *self.branch, xtol=1e-14)
+        """phi_s by Newton's method from the last one, h' = D/phi; bracketed where that leaves."""
+        phi = self.phi_s
+        for _ in range(MOST_STEPS):
+            curve = 1 / (1 - phi) - 2 * (self.a - self.b) - 6 * phi * self.b
+            slope = 1 + 1 / math.cbrt(phi) ** 2 + self.Omega * phi * curve
+            step = (self.load(phi) - 4 / a) / slope
+            phi -= step
+            if not self.branch[0] < phi < self.branch[1]:
+                break
+            if abs(step) <= 1e-14 * phi:
+                self.phi_s = phi
+                return phi
+        self.phi_s = brentq(lambda phi: self.load(phi) - 4 / a, *self.branch, xtol=1e-14)
+        return self.phi_s
 
     def potential(self, phi):
         mixing = -np.log1p(-phi) - phi - phi**2 / 2

@@ -199,3 +199,13 @@ def test_times_must_increase(tau):
 def test_front_must_move_ahead():
     with pytest.raises(ValueError, match=r"heat\.front is not allowed"):
         solve(Tubes(0.5), Backwards(), [0.01, 0.04])
+
+
+def test_length_out_of_equilibrium_does_not_count_whole_cells():
+    tubes = Tubes(np.array([0.1, 0.5, 0.9]), 0.1, 1.0, 1.0, 2.0)
+    coarse, fine = (
+        solve(tubes, StepHeating(10.0), [1e-3, 1e-2], cells=cells).departed_length.values
+        for cells in ((24, 15), (96, 60))
+    )
+    np.testing.assert_allclose(coarse, fine, rtol=0.015)
+    assert not np.allclose(coarse, fine, rtol=1e-4)  # they are two computations

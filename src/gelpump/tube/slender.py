@@ -316,18 +316,39 @@ class Family:
         flux, _, face, _ = self.inner_faces(stretch, X)
         Z_face = self.w * np.hstack([np.zeros_like(V[:, :1]), np.cumsum(stretch * V, axis=1)])
         shortening = ((1 - stretch) * V).sum(axis=1)
-        departed = np.abs(self.Phi_0 - Phi) > DEPARTED * (self.Phi_0[:, :1] - 1)
+        Z, front = (Z_face[:, 1:] + Z_face[:, :-1]) / 2, Z_face[:, self.behind, None]
+        Phi_front = face[:, self.behind - 1, None] ** -3.0
         return {
             "Phi1": Phi,
-            "Z": (Z_face[:, 1:] + Z_face[:, :-1]) / 2,
+            "Z": Z,
             "F": 3 * self.source(stretch)[0] / stretch**4 / self.w**2,
             "Z_face": Z_face,
             "flux": np.pad(-3 * flux * face**-3.0 / self.w, ((0, 0), (1, 1))),
-            "Phi1_front": face[:, self.behind - 1] ** -3.0,
-            "front_error": np.abs(Z_face[:, self.behind] - (self.w * self.front(t))[:, 0]),
+            "Phi1_front": Phi_front[:, 0],
+            "front_error": np.abs(front - self.w * self.front(t))[:, 0],
             "water_balance_error": np.abs(shortening - lost) / self.front(t)[:, 0],
-            "departed_length": (np.diff(Z_face) * departed).sum(axis=1),
+            "departed_length": self.departed_length(Z, Phi, front, Phi_front),
         }
+
+    def departed_length(self, Z, Phi, front, Phi_front):
+        """Length where Phi differs from Phi_0, which jumps at the front, by more than DEPARTED.
+
+        Phi is linear between the middles of cells, and from them to the front.
+        """
+        excess = np.abs(self.Phi_0 - Phi) - DEPARTED * (self.Phi_0[:, :1] - 1)
+        at_front = np.abs(self.Phi_0 - Phi_front) - DEPARTED * (self.Phi_0[:, :1] - 1)
+        b = self.behind
+        length = np.zeros(self.tubes)
+        for position, value in (
+            (np.hstack([Z[:, :b], front]), np.hstack([excess[:, :b], at_front[:, :1]])),
+            (np.hstack([front, Z[:, b:]]), np.hstack([at_front[:, -1:], excess[:, b:]])),
+        ):
+            above = np.maximum(value, 0.0)
+            share = (above[:, 1:] + above[:, :-1]) / np.maximum(
+                np.abs(value[:, 1:]) + np.abs(value[:, :-1]), np.finfo(float).tiny
+            )
+            length += (np.diff(position) * share).sum(axis=1)
+        return length + Z[:, 0] * (excess[:, 0] > 0)  # from the closed end to the first middle
 
 
 def _integral(step, rates, end):

@@ -11,6 +11,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -125,20 +126,7 @@ def even_steps(steps: int) -> Callable:
 
 def bead_of_order(order: int):
     """Production's bead with another order of the time steps."""
-
-    def run(problem: Bead, cells: int, tolerance: float):
-        found = lens.solve(
-            problem.gel,
-            problem.temperature,
-            problem.phi_initial,
-            problem.times,
-            cells,
-            tolerance=tolerance,
-            order=order,
-        )
-        return found.radius.values[1:]
-
-    return run
+    return partial(tools.our_bead, order=order)
 
 
 def evenly(problem: Bead, cells: int, steps: int):

@@ -28,7 +28,7 @@ def our_drop(problem: Drop, cells: int, tolerance: float):
     return faces, np.diff(dry**3)
 
 
-def our_bead(problem: Bead, cells: int, tolerance: float):
+def our_bead(problem: Bead, cells: int, tolerance: float, order: int = 3):
     bead = lens.solve(
         problem.gel,
         problem.temperature,
@@ -36,6 +36,7 @@ def our_bead(problem: Bead, cells: int, tolerance: float):
         problem.times,
         cells,
         tolerance=tolerance,
+        order=order,
     )
     return bead.radius.values[1:]
 

@@ -21,8 +21,8 @@ term and face side, factorises it as if its structure were unknown, and evaluate
 constraints on values and gradients add, of which there are none here: nothing flows through the
 ends of the mesh.  Its terms are therefore given a matrix of the three diagonals that one dimension
 has, a solver for it (LAPACK's band elimination with pivoting) and the knowledge that no face is
-constrained (`_tridiagonal`).  Entries and results are the same to the last bit, at a quarter of the
-cost.
+constrained (`_tridiagonal`), which changes no bit of what they add.  What that saves is in
+docs/performance.md, as is what it saves to let runs share sweeps (`together`).
 
 Two of FiPy 4.0.3's defaults would change answers silently, and are avoided here: its default solver
 skips a solve whose right-hand side looks small, so a direct one is named; and an unrelated

@@ -68,7 +68,7 @@ CATEGORIES: dict[str, Callable[[Stack], bool]] = {
     "figures: saving PNG": _below(r"/figures/style\.py:save$", r"/backend_agg\.py:print_png"),
     "figures: layout": _any(r"/figures/style\.py:save$"),
     "figures: drawing": _any(r"/gelpump/figures/"),
-    "digests and provenance": _any(r"/gelpump/(provenance|verify/\w+)\.py:"),
+    "digests and provenance": _any(r"/gelpump/(provenance|integrity/\w+)\.py:"),
     "page and article": _any(r"/gelpump/(report|article)/"),
     "our own Python": _any(r"/gelpump/"),
 }

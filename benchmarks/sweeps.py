@@ -129,7 +129,8 @@ def sampled() -> list[dict]:
 def formulae() -> dict:
     """CPU seconds of tau_99 of a million designs."""
     from gelpump.sweep import sampling
-    from gelpump.tube.deswelling import Tubes, deswelling_time
+    from gelpump.tube.deswelling import deswelling_time
+    from gelpump.tube.tubes import Tubes
 
     designs = sampling.sample(hypercube(samples=FORMULAE))
     tubes = Tubes(*(designs[key].values for key in ("ell", "eps", "M", "Pi_ratio", "Phi_inf")))

@@ -10,11 +10,12 @@ os.environ["FIPY_SOLVERS"] = "scipy"
 from benchmarks.lines import LensLines
 from benchmarks.problems import Bead, Drop, Tubes
 from gelpump.bead import lens
-from gelpump.second import lens_bead
-from gelpump.second import tube as second_tube
-from gelpump.tube import deswelling, slender
+from gelpump.known_solutions import bead as known
+from gelpump.second_solvers import lens_bead
+from gelpump.second_solvers import tube as second_tube
+from gelpump.tube import slender
+from gelpump.tube import tubes as family
 from gelpump.tube.heat import StepHeating
-from gelpump.verification import bead as known
 
 PICARD = 1e-4  # relative change at which the textbook's sweeps end; less changes no digit shown
 MOST_SWEEPS = 100
@@ -43,7 +44,7 @@ def our_bead(problem: Bead, cells: int, tolerance: float, order: int = 3):
 
 def our_tubes(problem: Tubes, behind: int, ahead: int, tolerance: float):
     p = problem.parameters
-    tubes = deswelling.Tubes(np.array(problem.ell), p["eps"], p["M"], p["Pi_ratio"], p["Phi_inf"])
+    tubes = family.Tubes(np.array(problem.ell), p["eps"], p["M"], p["Pi_ratio"], p["Phi_inf"])
     found = slender.solve(
         tubes, StepHeating(p["Le"]), problem.tau, cells=(behind, ahead), tolerance=tolerance
     )

@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from gelpump.tube.flow import source_coefficient
+from gelpump.tube.wall_flow import source_coefficient
 from gelpump.uncertainty import convergence_index, quadrature_error, rounding_error
 
 

@@ -6,7 +6,7 @@ from scipy.optimize import brentq
 
 from gelpump.bead import lens
 from gelpump.materials import PiecewiseLinearGel
-from gelpump.second import lens_bead
+from gelpump.second_solvers import lens_bead
 
 SWELLING = (308.0, 304.0, np.array([0.0, 1e-3, 0.01, 0.05, 0.1, 0.3, 1.0]))
 DRYING = (304.0, 307.6, np.array([0.0, 0.05, 0.2, 1.0, 2.0, 3.0, 4.0, 5.0, 5.5, 6.0, 8.0]))

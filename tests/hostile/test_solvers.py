@@ -14,9 +14,10 @@ from refusals import refused
 from gelpump import bdf
 from gelpump.bead import lens, nonlinear
 from gelpump.materials import EnergyBasedGel, PiecewiseLinearGel
-from gelpump.tube.deswelling import Tubes, deswelling_curve, deswelling_time
+from gelpump.tube.deswelling import deswelling_curve, deswelling_time
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
+from gelpump.tube.tubes import Tubes
 
 SOLVER_REFUSALS = (ValueError, RuntimeError), "phi_initial", "step", "CVODE", "shells"
 TIMES = np.array([0.0, 1e-3, 0.1, 1.0])

@@ -217,7 +217,7 @@ MUTANTS = (
     ),
     Mutant(
         "walls half as thick",
-        "src/gelpump/tube/deswelling.py",
+        "src/gelpump/tube/tubes.py",
         "return self.eps * (1 - self.ell) / 4",
         "return self.eps * (1 - self.ell) / 8",
         "tests/tube/test_deswelling.py",
@@ -245,14 +245,14 @@ MUTANTS = (
     ),
     Mutant(
         "lumen and outside swapped",
-        "src/gelpump/tube/flow.py",
+        "src/gelpump/tube/wall_flow.py",
         "return (1 / np.log(1 / ell) - 2 * ell**2 / (1 - ell**2)) / 2",
         "return 1 - (1 / np.log(1 / ell) - 2 * ell**2 / (1 - ell**2)) / 2",
-        "tests/tube/test_flow.py -k lumen_share",
+        "tests/tube/test_wall_flow.py -k lumen_share",
     ),
     Mutant(
         "polymer moves too fast",
-        "src/gelpump/tube/flow.py",
+        "src/gelpump/tube/wall_flow.py",
         "return -(self.integral(self.F / self.Phi1) + self.axial_velocity_face) / 3",
         "return -(self.integral(self.F / self.Phi1) + self.axial_velocity_face) / 2",
         "tests/tube/test_lumen.py -k conserves_water",
@@ -357,17 +357,17 @@ MUTANTS = (
     ),
     Mutant(
         "the older of two records counts",
-        "src/gelpump/verify/manifest.py",
+        "src/gelpump/integrity/manifest.py",
         "for record in records for path",
         "for record in reversed(records) for path",
-        "tests/verify/test_manifest.py",
+        "tests/integrity/test_manifest.py",
     ),
     Mutant(
         "an altered output is taken for a newer one",
-        "src/gelpump/verify/integrity.py",
+        "src/gelpump/integrity/alterations.py",
         'made[path]["outputs"][path]["sha256"] == found[path]',
         'made[path]["outputs"][path]["sha256"] != found[path]',
-        "tests/verify/test_manifest.py",
+        "tests/integrity/test_manifest.py",
     ),
     Mutant(
         "the convergence index is too small",
@@ -385,10 +385,10 @@ MUTANTS = (
     ),
     Mutant(
         "the front's jump in the radial flow is left out",
-        "src/gelpump/tube/flow.py",
+        "src/gelpump/tube/wall_flow.py",
         "np.max([speed.max(axis=-1), *sides], axis=0)",
         "np.max([speed.max(axis=-1)], axis=0)",
-        "tests/tube/test_flow.py -k fastest",
+        "tests/tube/test_wall_flow.py -k fastest",
     ),
 )
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from gelpump.tube.deswelling import Tubes, deswelling_curve, deswelling_time, response_time
+from gelpump.tube.deswelling import deswelling_curve, deswelling_time, response_time
+from gelpump.tube.tubes import Tubes
 
 
 def rate(Phi, tube, reswelling):

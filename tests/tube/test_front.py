@@ -5,10 +5,10 @@ import pytest
 import xarray as xr
 
 from gelpump.tube import front
-from gelpump.tube.deswelling import Tubes
 from gelpump.tube.front_fit import consistent_sharpness
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
+from gelpump.tube.tubes import Tubes
 
 ELL, TAU = np.array([0.2, 0.8]), np.array([0.01, 0.1])
 SHARP = np.array([[40.0, 41.0], [150.0, 165.0]])
@@ -97,7 +97,7 @@ def test_difference_of_profiles():
 
 def test_consistent_source_needs_no_other_solution():
     """A tube with kappa for 16 is one whose eps is larger by sqrt(16/kappa)."""
-    from gelpump.tube.flow import source_coefficient
+    from gelpump.tube.wall_flow import source_coefficient
 
     tau = np.geomspace(1e-3, 4e-3, 6)
     eps = 0.1 * np.sqrt(16 / source_coefficient(0.5))

@@ -7,11 +7,11 @@ from scipy.integrate import quad
 from gelpump.materials import PiecewiseLinearGel
 from gelpump.tube import lumen
 from gelpump.tube.budget import water_budget
-from gelpump.tube.deswelling import Tubes
-from gelpump.tube.flow import Wall
 from gelpump.tube.front import tanh_profile
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
+from gelpump.tube.tubes import Tubes
+from gelpump.tube.wall_flow import Wall
 
 TABLE_1 = PiecewiseLinearGel(Phi_inf=2.0, Pi_ratio=1.0, M=1.0)
 Z_C = float(StepHeating().front(0.1))

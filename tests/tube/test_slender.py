@@ -1,18 +1,19 @@
 """The family of slender tubes: accuracy, orders, conservation, limits.
 
 The errors are maxima over all cells and the front, relative to the independent solution of
-`gelpump.second.tube` where one is needed.
+`gelpump.second_solvers.tube` where one is needed.
 """
 
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from gelpump.second.tube import solve as method_of_lines
+from gelpump.second_solvers.tube import solve as method_of_lines
 from gelpump.tube import slender
-from gelpump.tube.deswelling import Tubes, deswelling_curve
+from gelpump.tube.deswelling import deswelling_curve
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
+from gelpump.tube.tubes import Tubes
 
 HEAT = StepHeating(Le=10.0)
 TAU = np.array([1e-4, 1e-3, 0.005, 0.025, 0.1])

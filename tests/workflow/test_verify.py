@@ -14,9 +14,9 @@ from types import SimpleNamespace
 import netCDF4
 import pytest
 
+from gelpump.integrity import conventions
+from gelpump.integrity.examination import examine
 from gelpump.provenance import file_digest
-from gelpump.verify import conventions
-from gelpump.verify.examination import examine
 
 pytestmark = pytest.mark.xdist_group("workflow")
 

@@ -24,8 +24,8 @@ rule second_bead_lens:
             "uncertainty",
             "bead/__init__",
             "bead/production",
-            "second/__init__",
-            "second/lens_bead",
+            "second_solvers/__init__",
+            "second_solvers/lens_bead",
         ),
     output:
         f"{DATA}/second/bead_{{case}}_lens.nc",
@@ -45,7 +45,7 @@ rule second_bead_lens:
 
 rule second_tube_pulse:
     input:
-        src=modules(*GEL, "netcdf", "second/__init__", "second/tube"),
+        src=modules(*GEL, "netcdf", "second_solvers/__init__", "second_solvers/tube"),
     output:
         f"{DATA}/second/tube_pulse.nc",
     log:
@@ -66,7 +66,13 @@ rule second_tube_pulse:
 rule cross_check:
     input:
         data=CROSS_CHECKED,
-        src=modules("netcdf", "text", "uncertainty", "second/__init__", "second/cross_check"),
+        src=modules(
+            "netcdf",
+            "text",
+            "uncertainty",
+            "second_solvers/__init__",
+            "second_solvers/cross_check",
+        ),
     output:
         json="results/cross_check.json",
         md=report(
@@ -98,18 +104,18 @@ rule verification:
             "bead/dataset",
             "bead/lens",
             "tube/__init__",
-            "tube/deswelling",
+            "tube/tubes",
             "tube/heat",
             "tube/scaling",
             "tube/slender",
             "figures/__init__",
             "figures/style",
             "figures/verification",
-            "verification/__init__",
-            "verification/study",
-            "verification/table",
-            "verification/bead",
-            "verification/tube",
+            "known_solutions/__init__",
+            "known_solutions/study",
+            "known_solutions/table",
+            "known_solutions/bead",
+            "known_solutions/tube",
         ),
     output:
         json="results/verification.json",

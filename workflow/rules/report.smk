@@ -38,7 +38,7 @@ rule report_page:
             "ledger/beads",
             "ledger/tubes",
             "tube/__init__",
-            "tube/flow",
+            "tube/wall_flow",
             "tube/front",
             "tube/lumen",
             "report/__init__",

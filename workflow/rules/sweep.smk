@@ -9,6 +9,7 @@ SOLVING = [
     "bdf",
     "finite_volume",
     "tube/deswelling",
+    "tube/tubes",
     "tube/heat",
     "tube/lumen",
     "tube/slender",

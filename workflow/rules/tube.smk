@@ -14,15 +14,15 @@ TUBES = expand(
     ],
 )
 TUBE = ["netcdf", "tube/__init__", "tube/scaling"]
-UNIFORM_TUBE = [*GEL, *TUBE, "uncertainty", "tube/deswelling", "tube/uniform"]
-WALL = [*TUBE, "tube/flow", "tube/front"]
+UNIFORM_TUBE = [*GEL, *TUBE, "uncertainty", "tube/tubes", "tube/deswelling", "tube/uniform"]
+WALL = [*TUBE, "tube/wall_flow", "tube/front"]
 PULSE = [
     *GEL,
     *WALL,
     "bdf",
     "finite_volume",
     "uncertainty",
-    "tube/deswelling",
+    "tube/tubes",
     "tube/heat",
     "tube/lumen",
     "tube/slender",
@@ -124,7 +124,7 @@ rule front_fit:
 rule tube_flow:
     input:
         pulse=f"{DATA}/tube_pulse.nc",
-        src=modules(*WALL, "tube/lumen", "tube/views"),
+        src=modules(*WALL, "tube/lumen", "tube/flow_fields"),
     output:
         expand(f"{DATA}/tube_flow_{{view}}.nc", view=config["tube_flow"]),
     log:

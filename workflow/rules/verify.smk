@@ -19,13 +19,13 @@ PRODUCTS = [
 VERIFY = [
     "netcdf",
     "text",
-    "verify/__init__",
-    "verify/problem",
-    "verify/manifest",
-    "verify/integrity",
-    "verify/crate",
-    "verify/build",
-    "verify/reference",
+    "integrity/__init__",
+    "integrity/problem",
+    "integrity/manifest",
+    "integrity/alterations",
+    "integrity/crate",
+    "integrity/build",
+    "integrity/reference",
 ]
 REFERENCE = {
     "quantities": "workflow/reference/quantities.yaml",
@@ -36,7 +36,7 @@ REFERENCE = {
 rule manifest:
     input:
         products=PRODUCTS,
-        src=modules("netcdf", "text", "verify/__init__", "verify/manifest"),
+        src=modules("netcdf", "text", "integrity/__init__", "integrity/manifest"),
     output:
         "results/manifest.json",
     log:
@@ -52,7 +52,7 @@ rule manifest:
 rule ro_crate:
     input:
         manifest="results/manifest.json",
-        src=modules("netcdf", "text", "verify/__init__", "verify/crate"),
+        src=modules("netcdf", "text", "integrity/__init__", "integrity/crate"),
     output:
         "results/ro-crate-metadata.json",
     log:
@@ -68,7 +68,7 @@ rule ro_crate:
 # declare no output either, so that they run whenever they are asked for.
 rule verify:
     input:
-        src=modules(*VERIFY, "verify/conventions", "verify/examination", "verify/table"),
+        src=modules(*VERIFY, "integrity/conventions", "integrity/examination", "integrity/table"),
     log:
         "results/logs/verify.log",
     params:

@@ -4,7 +4,7 @@ from _helpers import job
 
 with job(snakemake):
     from gelpump import netcdf
-    from gelpump.second import cross_check
+    from gelpump.second_solvers import cross_check
     from gelpump.text import write_json, write_text
 
     data = netcdf.read_all(snakemake.input.data, "results/data")

@@ -8,9 +8,9 @@ with job(snakemake):
 
     import yaml
 
+    from gelpump.integrity import reference
+    from gelpump.integrity.build import Build
     from gelpump.text import write_json
-    from gelpump.verify import reference
-    from gelpump.verify.build import Build
 
     params = snakemake.params
     try:

@@ -6,8 +6,8 @@ with job(snakemake) as provenance:
     import json
     from pathlib import Path
 
+    from gelpump.integrity.crate import crate
     from gelpump.text import write_json
-    from gelpump.verify.crate import crate
 
     manifest = Path(snakemake.input.manifest)
     write_json(

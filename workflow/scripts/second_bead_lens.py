@@ -6,7 +6,7 @@ with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.bead import production
     from gelpump.materials import from_config
-    from gelpump.second import lens_bead
+    from gelpump.second_solvers import lens_bead
 
     params = snakemake.params
     gel = from_config(params.case["gel"], params.gel)

@@ -5,7 +5,7 @@ from _helpers import job
 with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.materials import from_config
-    from gelpump.second import tube
+    from gelpump.second_solvers import tube
 
     params = snakemake.params
     gel = from_config(params.tube["gel"], params.gel)

@@ -4,12 +4,12 @@ from _helpers import job
 
 with job(snakemake) as provenance:
     from gelpump import netcdf
-    from gelpump.tube import views
+    from gelpump.tube import flow_fields
 
     pulse = netcdf.read(snakemake.input.pulse)
     for (name, view), path in zip(snakemake.params.views.items(), snakemake.output, strict=True):
         netcdf.write(
-            views.tube_flow(pulse, view["ell"], view["tau"]),
+            flow_fields.tube_flow(pulse, view["ell"], view["tau"]),
             path,
             title=f"flow in a collapsing tube: {name}",
             parameters={"view": view},

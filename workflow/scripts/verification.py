@@ -5,8 +5,8 @@ from _helpers import job
 with job(snakemake) as provenance:
     from gelpump.figures import style, verification
     from gelpump.finite_volume import together
+    from gelpump.known_solutions import bead, table, tube
     from gelpump.text import write_json, write_text
-    from gelpump.verification import bead, table, tube
 
     studies = [study for each in together(bead.studies, tube.studies) for study in each]
     print(table.markdown(studies))

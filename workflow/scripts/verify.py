@@ -8,9 +8,9 @@ from _helpers import job
 with job(snakemake):
     from pathlib import Path
 
+    from gelpump.integrity import table
+    from gelpump.integrity.examination import examine
     from gelpump.text import write_text
-    from gelpump.verify import table
-    from gelpump.verify.examination import examine
 
     params = snakemake.params
     try:

@@ -15,7 +15,7 @@ from gelpump.claims.materials import fold_uncertainty, root_uncertainty
 from gelpump.claims.table import number
 from gelpump.claims.tubes import front_constant
 from gelpump.tube import lumen
-from gelpump.tube.flow import Wall
+from gelpump.tube.wall_flow import Wall
 from gelpump.uncertainty import rounding_error
 
 REFINED, ROUNDED, INTEGRATED = "refinement", "rounding", "quadrature"

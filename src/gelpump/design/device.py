@@ -39,7 +39,7 @@ def diffusivity(design: Design):
 
 def tubes(design: Design, eps: float | None = None):
     """The tube as `gelpump.tube` takes it."""
-    from gelpump.tube.deswelling import Tubes
+    from gelpump.tube.tubes import Tubes
 
     given = design.given
     own = float((given["a_1"] / given["heated_length"]).to("").magnitude)

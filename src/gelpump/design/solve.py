@@ -75,7 +75,7 @@ def far_parts(wall) -> dict[str, tuple[float, float]]:
     """V far ahead, at the last time: what the wall sheds into the lumen behind the front, and what
     its source does ahead of it, in units of `gelpump.tube.lumen`; both forms, without the tube's
     own motion, which only the continuous one has."""
-    from gelpump.tube.flow import lumen_share
+    from gelpump.tube.wall_flow import lumen_share
 
     ell = float(np.ravel(wall.ell)[0])
     gain = 1 + lumen_share(ell) * (1 - ell**2) / ell**2
@@ -119,8 +119,8 @@ def in_si(design: Design, pulse: xr.Dataset) -> xr.Dataset:
     """A dataset of `gelpump.tube.slender` with one tube, in SI units."""
     from gelpump.tube import lumen
     from gelpump.tube.budget import water_budget
-    from gelpump.tube.flow import Wall
     from gelpump.tube.front import sharpness
+    from gelpump.tube.wall_flow import Wall
 
     scale = scales(design)
     time, L, a_1 = (units.si(scale[key], unit) for key, unit in

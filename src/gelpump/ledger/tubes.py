@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from gelpump.ledger.entry import Entry
-from gelpump.tube.flow import source_coefficient
+from gelpump.tube.wall_flow import source_coefficient
 from gelpump.uncertainty import rounding_error
 
 EPS = np.finfo(float).eps

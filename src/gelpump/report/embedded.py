@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gelpump.tube import lumen
-from gelpump.tube.flow import Wall
+from gelpump.tube.wall_flow import Wall
 
 if TYPE_CHECKING:
     import xarray as xr

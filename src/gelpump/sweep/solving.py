@@ -14,11 +14,12 @@ import xarray as xr
 
 from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
-from gelpump.tube.deswelling import Tubes, deswelling_time
-from gelpump.tube.flow import Wall
+from gelpump.tube.deswelling import deswelling_time
 from gelpump.tube.front import sharpness
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
+from gelpump.tube.tubes import Tubes
+from gelpump.tube.wall_flow import Wall
 
 NEWTON_SHARE = 0.03  # a tenth stalls some tubes with Phi_inf above 6
 FAMILY = 500  # tubes

@@ -15,8 +15,8 @@ eqn:phi2 and without the slope, what leaves is
     outwards:  pi (1-ell)/2 Integral F Phi_1^{-5/3} dZ,     to the lumen:  ell times as much,
 
 together half of the source's part of the shed rate: the 16 of F against the 8 of eqn:phi2. In the
-conserving form (`continuous`) a share sigma (`flow.lumen_share`) of the source's part goes to the
-lumen, the rest outwards, and the slopes are kept; both then sum to the shed rate.
+conserving form (`continuous`) a share sigma (`wall_flow.lumen_share`) of the source's part goes to
+the lumen, the rest outwards, and the slopes are kept; both then sum to the shed rate.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ import xarray as xr
 
 from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
-from gelpump.tube.flow import Wall, lumen_share, source_coefficient
+from gelpump.tube.wall_flow import Wall, lumen_share, source_coefficient
 
 SIDES = ("behind", "ahead")
 

@@ -17,59 +17,16 @@ drying and y = ln(Phi - Phi_0) while swelling. In y the integrand is analytic fo
 whatever the parameters, so Gauss-Legendre converges geometrically.
 """
 
-import warnings
-from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+
+from gelpump.tube.tubes import Tubes
 
 NODES, FEWER_NODES = 64, 48  # of the quadrature; the fewer tell how far it may be off
 LARGEST_Y = 40.0  # exp(-40): at rest to double precision
 BLOCK = 2**14  # designs whose intermediate results stay in the processor's cache
 EPS = 0.1  # any: t_99 does not depend on it
-
-
-@dataclass(frozen=True)
-class Tubes:
-    """A family of tubes; each field is a number or an array, broadcast to one length.
-
-    ell      ratio of the inner to the outer radius, a_0/a_1
-    eps      slenderness a_1/L
-    M        shear modulus over the osmotic pressure of the swollen state, mu_s/Pi_00
-    Pi_ratio osmotic pressure scale when hot over that when cold, Pi_0inf/Pi_00
-    Phi_inf  equilibrium polymer fraction when hot over that when cold
-    """
-
-    ell: np.ndarray
-    eps: np.ndarray = 0.1
-    M: np.ndarray = 1.0
-    Pi_ratio: np.ndarray = 1.0
-    Phi_inf: np.ndarray = 2.0
-
-    def __post_init__(self):
-        allowed = {
-            "ell": ("0 < ell < 1", lambda v: (v > 0) & (v < 1)),
-            "eps": ("eps > 0", lambda v: v > 0),
-            "M": ("M >= 0", lambda v: v >= 0),
-            "Pi_ratio": ("Pi_ratio > 0", lambda v: v > 0),
-            "Phi_inf": ("Phi_inf >= 1", lambda v: v >= 1),
-        }
-        values = np.broadcast_arrays(*(np.asarray(getattr(self, k), float) for k in allowed))
-        for (key, (text, inside)), value in zip(allowed.items(), values, strict=True):
-            bad = ~(inside(value) & np.isfinite(value))
-            if bad.any():
-                raise ValueError(f"{key} = {value[bad].flat[0]:g} is not allowed: {text}, finite")
-            object.__setattr__(self, key, value)
-        if (self.eps >= 0.5).any():
-            warnings.warn(
-                f"eps = {self.eps.max():g} is of order one: the slender tube needs eps^2 << 1",
-                stacklevel=3,
-            )
-
-    @property
-    def wall_length(self):
-        """w = eps (1-ell)/4, the axial length over which radial flow heals a disturbance."""
-        return self.eps * (1 - self.ell) / 4
 
 
 def deswelling_time(tubes, percent_left=1.0, reswelling=False, nodes=NODES):

@@ -7,7 +7,6 @@ import xarray as xr
 
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
-from gelpump.tube.flow import PRINTED_SOURCE_COEFFICIENT, source_coefficient
 from gelpump.tube.front import (
     WINDOW,
     largest_difference,
@@ -16,6 +15,7 @@ from gelpump.tube.front import (
     sharpness,
     wall_length,
 )
+from gelpump.tube.wall_flow import PRINTED_SOURCE_COEFFICIENT, source_coefficient
 
 SHARPNESS = "in units of 1/L"
 

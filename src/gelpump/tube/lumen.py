@@ -1,6 +1,6 @@
 """Flow in the lumen (section 3.6.2): U = C(Z) R and V = -2 Integral_0^Z C dZ.
 
-Radial velocities are in a_1, axial ones in L per poroelastic time, as in `gelpump.tube.flow`.
+Radial velocities are in a_1, axial ones in L per poroelastic time, as in `gelpump.tube.wall_flow`.
 Since F holds 16 D (Phi_0 - Phi_1) Phi_1^{2/3} / (eps^2 (1-ell)^2), all forms are integrals of F.
 
 As printed (eqn:lumen):
@@ -19,7 +19,7 @@ lumen per length, and pi B_0^2 = pi ell^2 Phi_1^{-2/3},
     (pi B_0^2)_tau + (pi B_0^2 V)_Z = W = -2 pi B_0 (U_g - B_0' V_g) at the edge
                                       = pi (1-ell^2) sigma F Phi_1^{-5/3} + (pi B_0^2)_Z V_g ,
 
-where sigma is `flow.lumen_share` (what the source of the solved equation sheds goes where the
+where sigma is `wall_flow.lumen_share` (what the source of the solved equation sheds goes where the
 (R^2, ln R, 1) form takes it). The lumen deforms with the wall: a material slice dX of it has the
 volume pi ell^2 dX/Phi_1, and the wall's own equation is DPhi_1/Dtau = F + Phi_1 V_g,Z, so
 
@@ -47,8 +47,8 @@ from functools import cache
 
 import numpy as np
 
-from gelpump.tube.flow import Wall, lumen_share
 from gelpump.tube.front import tanh_profile
+from gelpump.tube.wall_flow import Wall, lumen_share
 
 NODES, FEWER_NODES = 40, 30  # of the quadrature; the fewer tell how far it may be off
 HOT, COLD = 1.0, -1.0  # temperatures theta of either side

@@ -8,8 +8,8 @@ import xarray as xr
 
 from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
-from gelpump.tube.flow import Wall
 from gelpump.tube.front import PowerLaw
+from gelpump.tube.wall_flow import Wall
 from gelpump.uncertainty import quadrature_error
 
 FAR = 1e9  # beyond any pulse

@@ -9,11 +9,11 @@ import xarray as xr
 from gelpump.finite_volume import together
 from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
-from gelpump.tube.deswelling import Tubes
-from gelpump.tube.flow import Wall
 from gelpump.tube.front import largest_difference, sharpness
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
+from gelpump.tube.tubes import Tubes
+from gelpump.tube.wall_flow import Wall
 from gelpump.uncertainty import convergence_index
 
 TOLERANCE_FACTOR = 4.0

@@ -66,8 +66,8 @@ from gelpump.bdf import MAX_TRIALS, NotConverged, Step, integrate, interpolation
 from gelpump.finite_volume import DriftSweep
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
-from gelpump.tube.deswelling import Tubes
 from gelpump.tube.heat import Heat
+from gelpump.tube.tubes import Tubes
 
 GRADING_BEHIND = 0.5  # in units of w: where the cells behind the front begin to grow
 GRADING_AHEAD = 4.0  # last cell ahead is about cosh(4) = 27 times the first

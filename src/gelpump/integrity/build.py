@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gelpump import netcdf
+from gelpump.integrity import alterations
+from gelpump.integrity.crate import crate
+from gelpump.integrity.manifest import records
+from gelpump.integrity.problem import Problem
 from gelpump.provenance import file_digest
-from gelpump.verify import integrity
-from gelpump.verify.crate import crate
-from gelpump.verify.manifest import records
-from gelpump.verify.problem import Problem
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -38,13 +38,13 @@ class Build:
         files = [path.as_posix() for path in RESULTS.rglob("*") if path.is_file()]
         return {
             "outputs are as they were made": [
-                *integrity.changed(self.manifest, self.records, self.digest),
+                *alterations.changed(self.manifest, self.records, self.digest),
                 *self._crate_problems(),
             ],
-            "outputs are of this code and configuration": integrity.stale(
+            "outputs are of this code and configuration": alterations.stale(
                 self.manifest, blocks, self.digest
             ),
-            "nothing is left over": integrity.leftovers(files, self.manifest),
+            "nothing is left over": alterations.leftovers(files, self.manifest),
         }
 
     def _crate_problems(self) -> list[Problem]:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from gelpump.verify.problem import Problem
+from gelpump.integrity.problem import Problem
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -4,8 +4,8 @@ import numpy as np
 import xarray as xr
 
 from gelpump.netcdf import variable
-from gelpump.tube import flow, lumen, scaling
-from gelpump.tube.flow import Wall
+from gelpump.tube import lumen, scaling, wall_flow
+from gelpump.tube.wall_flow import Wall
 
 ACROSS_WALL, ACROSS_LUMEN = 41, 11
 
@@ -24,8 +24,8 @@ def tube_flow(pulse, ell, tau) -> xr.Dataset:
     column = wall.Phi1[:, np.newaxis], wall.drive[:, np.newaxis] * wall.eps**2
     section = ("Z", "R")
     fractions = {
-        "": (flow.Phi2_printed, "eqn:phi2"),
-        "_consistent": (flow.Phi2_consistent, "the conditions above eqn:phi2"),
+        "": (wall_flow.Phi2_printed, "eqn:phi2"),
+        "_consistent": (wall_flow.Phi2_consistent, "the conditions above eqn:phi2"),
     }
     U_g = {
         "": (wall.radial_velocity_printed(s), "eqn:ug with eqn:phi2"),

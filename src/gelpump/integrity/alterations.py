@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from gelpump.verify.manifest import by_output
-from gelpump.verify.problem import Problem
+from gelpump.integrity.manifest import by_output
+from gelpump.integrity.problem import Problem
 
 Digest = Callable[[str], str | None]
 

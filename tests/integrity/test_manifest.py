@@ -5,8 +5,8 @@ import os
 
 import pytest
 
-from gelpump.verify.integrity import changed, leftovers, stale
-from gelpump.verify.manifest import by_output, manifest, records
+from gelpump.integrity.alterations import changed, leftovers, stale
+from gelpump.integrity.manifest import by_output, manifest, records
 
 
 def record(rule, **outputs):

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gelpump.tube import flow
+from gelpump.tube import wall_flow
 from gelpump.tube.budget import water_budget
-from gelpump.tube.deswelling import Tubes
-from gelpump.tube.flow import Wall
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
+from gelpump.tube.tubes import Tubes
+from gelpump.tube.wall_flow import Wall
 
 ELLS = [0.01, 0.25, 0.5, 0.9]
 
@@ -26,7 +26,7 @@ def pulse():
 
 
 @pytest.mark.parametrize("ell", ELLS)
-@pytest.mark.parametrize("form", [flow.Phi2_printed, flow.Phi2_consistent])
+@pytest.mark.parametrize("form", [wall_flow.Phi2_printed, wall_flow.Phi2_consistent])
 def test_midline_and_edges(form, ell):
     np.testing.assert_allclose(
         form(np.array([ell, (1 + ell) / 2, 1.0]), 7.0, ell), [7, 0, 7], atol=1e-9
@@ -37,21 +37,22 @@ def test_midline_and_edges(form, ell):
 def test_consistent_form_solves_its_equation(ell):
     """(1/R) (R Phi_2')' is the same everywhere: f/D, with kappa for the printed 16."""
     s, h = np.linspace(ell, 1, 9)[1:-1], 1e-4 * (1 - ell)
-    up, here, down = (flow.Phi2_consistent(s + d, 1.0, ell) for d in (h, 0, -h))
+    up, here, down = (wall_flow.Phi2_consistent(s + d, 1.0, ell) for d in (h, 0, -h))
     laplacian = (up - 2 * here + down) / h**2 + (up - down) / (2 * h) / s
-    kappa = flow.source_coefficient(ell)
+    kappa = wall_flow.source_coefficient(ell)
     np.testing.assert_allclose(laplacian, kappa / (1 - ell) ** 2, rtol=1e-4)
 
 
 @pytest.mark.parametrize("ell", ELLS)
 def test_printed_form_has_eight_in_the_mean(ell):
-    flux = 2 * np.pi * (flow._slope_printed(1.0, ell) - ell * flow._slope_printed(ell, ell))
+    outer, inner = (wall_flow._slope_printed(s, ell) for s in (1.0, ell))
+    flux = 2 * np.pi * (outer - ell * inner)
     area = np.pi * (1 - ell**2)
     assert np.isclose(flux / area * (1 - ell) ** 2, 8)
 
 
 def test_source_coefficient_is_below_eight_and_tends_to_it():
-    kappa = flow.source_coefficient(np.array([0.01, 0.5, 0.9, 0.99]))
+    kappa = wall_flow.source_coefficient(np.array([0.01, 0.5, 0.9, 0.99]))
     assert (np.diff(kappa) > 0).all()
     assert (kappa < 8).all()
     assert np.isclose(kappa[-1], 8, rtol=1e-5)
@@ -59,9 +60,9 @@ def test_source_coefficient_is_below_eight_and_tends_to_it():
 
 @pytest.mark.parametrize("ell", ELLS)
 def test_lumen_share_is_that_of_the_consistent_slopes(ell):
-    inward = -ell * flow._slope_consistent(ell, ell)
-    outward = flow._slope_consistent(1.0, ell)
-    assert np.isclose(flow.lumen_share(ell), inward / (inward + outward))
+    inward = -ell * wall_flow._slope_consistent(ell, ell)
+    outward = wall_flow._slope_consistent(1.0, ell)
+    assert np.isclose(wall_flow.lumen_share(ell), inward / (inward + outward))
 
 
 def test_velocity_is_the_printed_expression(pulse):
@@ -83,8 +84,8 @@ def test_velocity_is_the_slope_of_Phi2(pulse):
     wall, h = Wall.of(pulse.isel(ell=0, tau=-1)), 1e-6
     D_over_Phi = wall.F * (1 - 0.25) ** 2 / 16 / wall.Phi1 ** (5 / 3) / wall.drive
     for form, velocity in (
-        (flow.Phi2_printed, wall.radial_velocity_printed),
-        (flow.Phi2_consistent, wall.radial_velocity_consistent),
+        (wall_flow.Phi2_printed, wall.radial_velocity_printed),
+        (wall_flow.Phi2_consistent, wall.radial_velocity_consistent),
     ):
         slope = (form(0.9 + h, wall.drive, 0.25) - form(0.9 - h, wall.drive, 0.25)) / (2 * h)
         expected = D_over_Phi * slope * np.cbrt(wall.Phi1)
@@ -142,8 +143,8 @@ def test_printed_edges_let_out_half_of_the_source(pulse):
 
 def test_share_of_a_thin_wall():
     """Half each way, and the whole of it by integration of the mean source."""
-    assert np.isclose(flow.lumen_share(0.9999), 0.5, atol=1e-4)
+    assert np.isclose(wall_flow.lumen_share(0.9999), 0.5, atol=1e-4)
     ell = 0.3
-    mean = quad(lambda s: s * flow.source_coefficient(ell) / (1 - ell) ** 2, ell, 1)[0]
-    ends = flow._slope_consistent(1.0, ell) - ell * flow._slope_consistent(ell, ell)
+    mean = quad(lambda s: s * wall_flow.source_coefficient(ell) / (1 - ell) ** 2, ell, 1)[0]
+    ends = wall_flow._slope_consistent(1.0, ell) - ell * wall_flow._slope_consistent(ell, ell)
     assert np.isclose(mean, ends)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gelpump.materials import PiecewiseLinearGel
-from gelpump.second import cross_check, lens_bead, tube
+from gelpump.second_solvers import cross_check, lens_bead, tube
 
 TIMES = np.array([0.0, 1e-3, 0.01, 0.1])
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from gelpump.verify.problem import Problem
-from gelpump.verify.reference import Row
+from gelpump.integrity.problem import Problem
+from gelpump.integrity.reference import Row
 
 
 def markdown(checks: dict[str, list[Problem]], rows: Sequence[Row], notes: Sequence[str]) -> str:

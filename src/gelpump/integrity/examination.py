@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import yaml
 
-from gelpump.verify import conventions, reference
-from gelpump.verify.build import Build
-from gelpump.verify.problem import Problem
+from gelpump.integrity import conventions, reference
+from gelpump.integrity.build import Build
+from gelpump.integrity.problem import Problem
 
 
 class Examination(NamedTuple):

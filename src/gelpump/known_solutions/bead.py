@@ -28,8 +28,8 @@ from scipy.optimize import brentq
 from gelpump import bdf
 from gelpump.bead import lens
 from gelpump.finite_volume import NewtonSweep, together
+from gelpump.known_solutions.study import Study, one_run, space, time
 from gelpump.materials import PiecewiseLinearGel
-from gelpump.verification.study import Study, one_run, space, time
 
 ORDER = 3  # of the time steps, as in production
 SPREAD = 1.0  # how long Barenblatt's solution is followed, from t = 1

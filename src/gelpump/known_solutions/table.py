@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from gelpump.verification.study import Study
+from gelpump.known_solutions.study import Study
 
 
 class NotVerified(ArithmeticError):

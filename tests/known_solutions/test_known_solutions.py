@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from gelpump.verification import bead, tube
-from gelpump.verification.study import ORDER, Study, one_run, space
-from gelpump.verification.table import NotVerified, markdown, require_all
+from gelpump.known_solutions import bead, tube
+from gelpump.known_solutions.study import ORDER, Study, one_run, space
+from gelpump.known_solutions.table import NotVerified, markdown, require_all
 
 
 @pytest.mark.parametrize("model", [bead, tube], ids=["bead", "tube"])

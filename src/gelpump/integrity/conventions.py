@@ -6,7 +6,7 @@ flags, which are not quantities.
 
 from collections.abc import Iterable, Iterator
 
-from gelpump.verify.problem import Problem
+from gelpump.integrity.problem import Problem
 
 CHECKER = "cf:1.11"
 

@@ -32,10 +32,10 @@ from scipy.optimize import brentq
 
 from gelpump.bdf import integrate
 from gelpump.finite_volume import together
+from gelpump.known_solutions.study import Study, one_run, space, time
 from gelpump.tube import slender
-from gelpump.tube.deswelling import Tubes
 from gelpump.tube.heat import StepHeating
-from gelpump.verification.study import Study, one_run, space, time
+from gelpump.tube.tubes import Tubes
 
 TUBE = Tubes(0.5, 0.1, M=0.3, Pi_ratio=0.5, Phi_inf=4.0)  # q = 2.5: the slope jumps strongly
 HEAT = StepHeating(10.0)

@@ -1,4 +1,4 @@
-"""The modules that a rule declares are exactly those that its script imports."""
+"""The modules that are inputs of a rule are exactly those that its script imports."""
 
 import ast
 import re
@@ -7,8 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from gelpump import imports
+
 PROJECT = Path(__file__).resolve().parents[2]
 SOURCE = PROJECT / "src"
+SCRIPTS = PROJECT / "workflow/scripts"
 
 
 def module_file(name: str) -> Path | None:
@@ -66,55 +69,22 @@ def closure(file: Path) -> frozenset[Path]:
     return frozenset(found)
 
 
-def declared_modules(clone) -> dict[str, set[str]]:
-    """Files under src that each rule of a full build lists among its inputs."""
-    result = clone.snakemake(
-        "--dry-run",
-        "--forceall",
-        "all",
-        "verify",
-        "renew_reference",
-        "renew_map",
-        "results/designs/bead.nc",
-        "results/gels/ANB.nc",
-        *(
-            f"results/sweeps/sensitivity/{file}"
-            for file in ("accuracy.nc", "surface.pdf", "bars.pdf")
-        ),
+@pytest.mark.parametrize("script", sorted(SCRIPTS.glob("[!_]*.py")), ids=lambda path: path.stem)
+def test_a_rule_gets_exactly_what_its_script_imports(script):
+    frame = closure(SCRIPTS / "_helpers.py")
+    imported = {str(file.relative_to(PROJECT)) for file in closure(script) | frame}
+    assert set(imports.modules(script)) == imported
+
+
+def test_imports_in_functions_and_of_neighbours_count_those_for_type_checkers_do_not(tmp_path):
+    (tmp_path / "_helpers.py").touch()
+    (tmp_path / "solve.py").write_text(
+        "if TYPE_CHECKING:\n    from gelpump.figures import style\n\n"
+        "def run():\n    from gelpump.materials import (\n        Gel,  # a protocol\n    )\n"
     )
-    assert result.returncode == 0, result.stdout + result.stderr
-    declared, rule = {}, None
-    for line in (result.stdout + result.stderr).splitlines():
-        if match := re.match(r"(?:local)?rule (\w+):", line):
-            rule = match[1]
-        elif line.startswith("    input: ") and rule != "all":
-            files = line.removeprefix("    input: ").split(", ")
-            declared[rule] = {file for file in files if file.endswith(".py")}
-    return declared
-
-
-@pytest.mark.xdist_group("workflow")
-def test_rules_declare_exactly_what_their_scripts_import(clone):
-    declared = declared_modules(clone)
-    assert len(declared) > 10
-    for rule, files in declared.items():
-        script = PROJECT / f"workflow/scripts/{rule}.py"
-        assert script.exists(), f"rule {rule} has no script of its name"
-        imported = {str(file.relative_to(PROJECT)) for file in closure(script)}
-        imported |= {
-            f"src/gelpump/{module}.py" for module in ("__init__", "progress", "provenance")
-        }
-        imported.add("workflow/scripts/_helpers.py")
-        assert files == imported, rule
-
-
-def test_the_closure_sees_late_and_relative_imports():
-    lens = {str(file.relative_to(SOURCE)) for file in closure(SOURCE / "gelpump/bead/lens.py")}
-    assert "gelpump/bdf.py" in lens
-    materials = closure(SOURCE / "gelpump/materials/__init__.py")
-    assert SOURCE / "gelpump/materials/validation.py" in materials
-    config = closure(SOURCE / "gelpump/config.py")
-    assert SOURCE / "gelpump/materials/energy_based.py" in config  # imported in a function
+    found = imports.modules(tmp_path / "solve.py")
+    assert "src/gelpump/materials/validation.py" in found  # by `from .validation import ...`
+    assert not {file for file in found if "figures" in file}
 
 
 def test_nothing_follows_the_job_of_a_rule_that_makes_something():

@@ -1,19 +1,5 @@
 # The replication article: what was found, as a PDF whose numbers all come from the results.
 
-ARTICLE = [
-    "article/__init__",
-    "article/markup",
-    "article/telling",
-    "article/typeset",
-    "claims/__init__",
-    "claims/table",
-    "netcdf",
-    "report/__init__",
-    "report/content",
-    "report/figures",
-    "report/notation",
-]
-
 
 rule article:
     input:
@@ -31,7 +17,7 @@ rule article:
         seconds="workflow/reference/seconds.json",
         captions=[f"workflow/report/{name}.rst" for name in [*TOLD_FIGURES, *TOLD_TABLES]],
         frame=["src/gelpump/article/article.typ", "src/gelpump/article/references.yml"],
-        src=modules(*ARTICLE),
+        src=modules("article"),
     output:
         report(
             "results/replication.pdf",

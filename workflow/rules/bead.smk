@@ -9,9 +9,6 @@ BEADS = expand(
     model=["lens", "nonlinear"],
 )
 SENSITIVITIES = expand(f"{DATA}/sensitivity_{{case}}.nc", case=config["sensitivity"]["cases"])
-BEAD = ["netcdf", "config", "uncertainty", "bead/__init__", "bead/dataset", "bead/production"]
-LENS_BEAD = [*GEL, *BEAD, "bdf", "finite_volume", "bead/lens"]
-NONLINEAR_BEAD = [*GEL, *BEAD, "bead/nonlinear"]
 
 
 wildcard_constraints:
@@ -20,7 +17,7 @@ wildcard_constraints:
 
 rule bead_lens:
     input:
-        src=modules(*LENS_BEAD),
+        src=modules("bead_lens"),
     output:
         bead=f"{DATA}/bead_{{case}}_lens.nc",
         refinement=f"{DATA}/refinement/bead_{{case}}_lens.nc",
@@ -39,7 +36,7 @@ rule bead_lens:
 
 rule bead_nonlinear:
     input:
-        src=modules(*NONLINEAR_BEAD),
+        src=modules("bead_nonlinear"),
     output:
         bead=f"{DATA}/bead_{{case}}_nonlinear.nc",
         refinement=f"{DATA}/refinement/bead_{{case}}_nonlinear.nc",
@@ -58,7 +55,7 @@ rule bead_nonlinear:
 
 rule bead_sensitivity:
     input:
-        src=modules(*NONLINEAR_BEAD, "bead/sensitivity"),
+        src=modules("bead_sensitivity"),
     output:
         f"{DATA}/sensitivity_{{case}}.nc",
     log:

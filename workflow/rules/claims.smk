@@ -43,24 +43,7 @@ CLAIMED_BEADS = {name: config["beads"][name] for name in CLAIM_BEADS if name in 
 rule claims:
     input:
         data=list(dict.fromkeys(EVIDENCE + MATERIALS + DRAWN_BEADS_DATA)),
-        src=modules(
-            "netcdf",
-            "text",
-            "uncertainty",
-            *GEL,
-            "claims/__init__",
-            "claims/finding",
-            "claims/verdict",
-            "claims/table",
-            "claims/materials",
-            "claims/beads",
-            "claims/tubes",
-            "claims/figure_numbers",
-            "tube/__init__",
-            "tube/wall_flow",
-            "tube/front",
-            "tube/lumen",
-        ),
+        src=modules("claims"),
     output:
         json="results/claims.json",
         numbers="results/tables/figure_numbers.json",
@@ -94,20 +77,7 @@ rule claims:
 rule ledger:
     input:
         data=EVIDENCE + [f"{DATA}/sensitivity_drying.nc", f"{DATA}/tube_flow_whole.nc"],
-        src=modules(
-            "netcdf",
-            "text",
-            "uncertainty",
-            "tube/__init__",
-            "tube/wall_flow",
-            *GEL,
-            "ledger/__init__",
-            "ledger/entry",
-            "ledger/table",
-            "ledger/materials",
-            "ledger/beads",
-            "ledger/tubes",
-        ),
+        src=modules("ledger"),
     output:
         json="results/ledger.json",
         md=report(

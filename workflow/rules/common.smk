@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import yaml
 
 from gelpump import config as checked
-from gelpump import provenance
+from gelpump import imports, provenance
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as stream:
     schema = yaml.safe_load(stream)
@@ -41,30 +41,17 @@ else:  # a job of a workflow that was checked when it started
 # Priorities of rules: the longest chain of jobs begins first (3), then long jobs (2, 1), so that
 # figures and other short ones fill the gaps.
 DATA = "results/data"
+SCRIPTS = "workflow/scripts"
 ENERGY_GELS = [name for name, block in config["gels"].items() if block["model"] == "energy-based"]
 
 
-def modules(*names):
-    """Files of the gelpump modules that a rule's script imports, directly or not.
+def modules(rule):
+    """Files of the gelpump modules that the script of this rule imports, directly or not.
 
     They are inputs, so that an edit reruns what depends on it and nothing else.  A job fails if it
-    imported a module that its rule does not list; a test fails if a listed one is not used.
+    imported a module that is not among them.
     """
-    files = [
-        "src/gelpump/__init__.py",
-        "src/gelpump/progress.py",
-        "src/gelpump/provenance.py",
-        "workflow/scripts/_helpers.py",
-    ]
-    return files + [f"src/gelpump/{name.replace('.', '/')}.py" for name in names]
-
-
-GEL = [
-    "materials/__init__",
-    "materials/energy_based",
-    "materials/piecewise_linear",
-    "materials/validation",
-]
+    return imports.modules(f"{SCRIPTS}/{rule}.py") + [f"{SCRIPTS}/_helpers.py"]
 
 
 def config_blocks(wildcards):

@@ -17,16 +17,7 @@ CROSS_CHECKED = [
 
 rule second_bead_lens:
     input:
-        src=modules(
-            *GEL,
-            "netcdf",
-            "config",
-            "uncertainty",
-            "bead/__init__",
-            "bead/production",
-            "second_solvers/__init__",
-            "second_solvers/lens_bead",
-        ),
+        src=modules("second_bead_lens"),
     output:
         f"{DATA}/second/bead_{{case}}_lens.nc",
     log:
@@ -45,7 +36,7 @@ rule second_bead_lens:
 
 rule second_tube_pulse:
     input:
-        src=modules(*GEL, "netcdf", "second_solvers/__init__", "second_solvers/tube"),
+        src=modules("second_tube_pulse"),
     output:
         f"{DATA}/second/tube_pulse.nc",
     log:
@@ -66,13 +57,7 @@ rule second_tube_pulse:
 rule cross_check:
     input:
         data=CROSS_CHECKED,
-        src=modules(
-            "netcdf",
-            "text",
-            "uncertainty",
-            "second_solvers/__init__",
-            "second_solvers/cross_check",
-        ),
+        src=modules("cross_check"),
     output:
         json="results/cross_check.json",
         md=report(
@@ -94,29 +79,7 @@ rule cross_check:
 
 rule verification:
     input:
-        src=modules(
-            *GEL,
-            "netcdf",
-            "text",
-            "bdf",
-            "finite_volume",
-            "bead/__init__",
-            "bead/dataset",
-            "bead/lens",
-            "tube/__init__",
-            "tube/tubes",
-            "tube/heat",
-            "tube/scaling",
-            "tube/slender",
-            "figures/__init__",
-            "figures/style",
-            "figures/verification",
-            "known_solutions/__init__",
-            "known_solutions/study",
-            "known_solutions/table",
-            "known_solutions/bead",
-            "known_solutions/tube",
-        ),
+        src=modules("verification"),
     output:
         json="results/verification.json",
         md=report(

@@ -25,7 +25,7 @@ FIGURES = expand(
 rule fig01_lens_schematic:
     input:
         bead=f"{DATA}/bead_{config['figures']['fig01_lens_schematic']['case']}_lens.nc",
-        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig01_lens_schematic"),
+        src=modules("fig01_lens_schematic"),
     output:
         pdf="results/figures/fig01_lens_schematic.pdf",
         csv="results/figures/fig01_lens_schematic.csv",
@@ -50,7 +50,7 @@ rule fig01_lens_schematic:
 rule fig02_osmotic_schema:
     input:
         material=f"{DATA}/materials_{config['figures']['fig02_osmotic_schema']['gel']}.nc",
-        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig02_osmotic_schema"),
+        src=modules("fig02_osmotic_schema"),
     output:
         pdf="results/figures/fig02_osmotic_schema.pdf",
         csv="results/figures/fig02_osmotic_schema.csv",
@@ -76,13 +76,7 @@ rule fig03_swell_bead:
     input:
         lens=f"{DATA}/bead_{config['figures']['fig03_swell_bead']['case']}_lens.nc",
         nonlinear=f"{DATA}/bead_{config['figures']['fig03_swell_bead']['case']}_nonlinear.nc",
-        src=modules(
-            "netcdf",
-            "figures/__init__",
-            "figures/style",
-            "figures/bead_panels",
-            "figures/fig03_swell_bead",
-        ),
+        src=modules("fig03_swell_bead"),
     output:
         pdf="results/figures/fig03_swell_bead.pdf",
         csv="results/figures/fig03_swell_bead.csv",
@@ -110,13 +104,7 @@ rule fig04_dry_bead:
     input:
         lens=f"{DATA}/bead_{config['figures']['fig04_dry_bead']['case']}_lens.nc",
         nonlinear=f"{DATA}/bead_{config['figures']['fig04_dry_bead']['case']}_nonlinear.nc",
-        src=modules(
-            "netcdf",
-            "figures/__init__",
-            "figures/style",
-            "figures/bead_panels",
-            "figures/fig04_dry_bead",
-        ),
+        src=modules("fig04_dry_bead"),
     output:
         pdf="results/figures/fig04_dry_bead.pdf",
         csv="results/figures/fig04_dry_bead.csv",
@@ -146,7 +134,7 @@ rule fig05_spinodal:
         beads=expand(
             f"{DATA}/bead_{{case}}_lens.nc", case=config["figures"]["fig05_spinodal"]["cases"]
         ),
-        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig05_spinodal"),
+        src=modules("fig05_spinodal"),
     output:
         pdf="results/figures/fig05_spinodal.pdf",
         csv="results/figures/fig05_spinodal.csv",
@@ -172,13 +160,7 @@ rule fig05_spinodal:
 rule fig06_tube_schematic:
     input:
         pulse=f"{DATA}/tube_pulse.nc",
-        src=modules(
-            "netcdf",
-            "figures/__init__",
-            "figures/style",
-            "figures/tube_section",
-            "figures/fig06_tube_schematic",
-        ),
+        src=modules("fig06_tube_schematic"),
     output:
         pdf="results/figures/fig06_tube_schematic.pdf",
         csv="results/figures/fig06_tube_schematic.csv",
@@ -204,7 +186,7 @@ rule fig07_deswelling:
     input:
         times=f"{DATA}/deswelling_map.nc",
         curves=f"{DATA}/deswelling_curves.nc",
-        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig07_deswelling"),
+        src=modules("fig07_deswelling"),
     output:
         pdf="results/figures/fig07_deswelling.pdf",
         csv="results/figures/fig07_deswelling.csv",
@@ -230,13 +212,7 @@ rule fig07_deswelling:
 rule fig08_profiles:
     input:
         pulse=f"{DATA}/tube_pulse.nc",
-        src=modules(
-            "netcdf",
-            "figures/__init__",
-            "figures/style",
-            "figures/tube_section",
-            "figures/fig08_profiles",
-        ),
+        src=modules("fig08_profiles"),
     output:
         pdf="results/figures/fig08_profiles.pdf",
         csv="results/figures/fig08_profiles.csv",
@@ -263,7 +239,7 @@ rule fig09_relax:
     input:
         pulse=f"{DATA}/tube_pulse.nc",
         fit=f"{DATA}/front_fit.nc",
-        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig09_relax"),
+        src=modules("fig09_relax"),
     output:
         pdf="results/figures/fig09_relax.pdf",
         csv="results/figures/fig09_relax.csv",
@@ -289,14 +265,7 @@ rule fig09_relax:
 rule fig10_flow:
     input:
         views=expand(f"{DATA}/tube_flow_{{view}}.nc", view=config["figures"]["fig10_flow"]["views"]),
-        src=modules(
-            "netcdf",
-            "figures/__init__",
-            "figures/style",
-            "figures/tube_section",
-            "figures/tube_flow",
-            "figures/fig10_flow",
-        ),
+        src=modules("fig10_flow"),
     output:
         pdf="results/figures/fig10_flow.pdf",
         csv="results/figures/fig10_flow.csv",
@@ -325,14 +294,7 @@ rule fig11_flow_close:
             f"{DATA}/tube_flow_{{view}}.nc", view=config["figures"]["fig11_flow_close"]["views"]
         ),
         budget=f"{DATA}/water_budget.nc",
-        src=modules(
-            "netcdf",
-            "figures/__init__",
-            "figures/style",
-            "figures/tube_section",
-            "figures/tube_flow",
-            "figures/fig11_flow_close",
-        ),
+        src=modules("fig11_flow_close"),
     output:
         pdf="results/figures/fig11_flow_close.pdf",
         csv="results/figures/fig11_flow_close.csv",
@@ -361,7 +323,7 @@ rule fig11_flow_close:
 rule fig12_axial_flow:
     input:
         pulse=f"{DATA}/lumen_pulse.nc",
-        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig12_axial_flow"),
+        src=modules("fig12_axial_flow"),
     output:
         pdf="results/figures/fig12_axial_flow.pdf",
         csv="results/figures/fig12_axial_flow.csv",
@@ -390,7 +352,7 @@ rule fig13_osmotic:
         materials=expand(
             f"{DATA}/materials_{{gel}}.nc", gel=config["figures"]["fig13_osmotic"]["gels"]
         ),
-        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig13_osmotic"),
+        src=modules("fig13_osmotic"),
     output:
         pdf="results/figures/fig13_osmotic.pdf",
         csv="results/figures/fig13_osmotic.csv",
@@ -417,7 +379,7 @@ rule fig14_equilibrium:
         materials=expand(
             f"{DATA}/materials_{{gel}}.nc", gel=config["figures"]["fig14_equilibrium"]["gels"]
         ),
-        src=modules("netcdf", "figures/__init__", "figures/style", "figures/fig14_equilibrium"),
+        src=modules("fig14_equilibrium"),
     output:
         pdf="results/figures/fig14_equilibrium.pdf",
         csv="results/figures/fig14_equilibrium.csv",

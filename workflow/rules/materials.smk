@@ -6,7 +6,7 @@ MATERIALS = expand(f"{DATA}/materials_{{gel}}.nc", gel=ENERGY_GELS)
 rule materials:
     input:
         points=measured_points,
-        src=modules("netcdf", "materials/tables", *GEL),
+        src=modules("materials"),
     output:
         f"{DATA}/materials_{{gel}}.nc",
     log:
@@ -26,18 +26,7 @@ rule materials:
 rule gel:
     input:
         points=measured_points,
-        src=modules(
-            "netcdf",
-            "tables",
-            "text",
-            "materials/tables",
-            "materials/measured",
-            "materials/sheet",
-            "figures/__init__",
-            "figures/style",
-            "figures/gel",
-            *GEL,
-        ),
+        src=modules("gel"),
     output:
         data="results/gels/{gel}.nc",
         table="results/gels/{gel}.csv",

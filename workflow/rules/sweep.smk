@@ -4,19 +4,6 @@
 import sys
 
 SWEEPS = sweep_names("designs", "chunk", "combine", "accuracy", "indices", "surface", "bars")
-SOLVING = [
-    *WALL,
-    "bdf",
-    "finite_volume",
-    "tube/deswelling",
-    "tube/tubes",
-    "tube/heat",
-    "tube/lumen",
-    "tube/slender",
-    "sweep/__init__",
-    "sweep/solving",
-]
-DRAWING = ["netcdf", "figures/__init__", "figures/style", "figures/sweep"]
 
 
 wildcard_constraints:
@@ -44,7 +31,7 @@ for _name in SWEEPS:
 
 rule sweep_designs:
     input:
-        src=modules("netcdf", "config", *GEL, "sweep/__init__", "sweep/plan", "sweep/sampling"),
+        src=modules("sweep_designs"),
     output:
         "results/sweeps/{sweep}/designs.nc",
     log:
@@ -58,7 +45,7 @@ rule sweep_designs:
 rule sweep_chunk:
     input:
         designs="results/sweeps/{sweep}/designs.nc",
-        src=modules(*SOLVING, "sweep/part"),
+        src=modules("sweep_chunk"),
     output:
         "results/sweeps/{sweep}/chunks/{chunk}.nc",
     log:
@@ -73,7 +60,7 @@ rule sweep_chunk:
 rule sweep_combine:
     input:
         chunks=sweep_chunks,
-        src=modules("netcdf", "sweep/__init__", "sweep/combine"),
+        src=modules("sweep_combine"),
     output:
         "results/sweeps/{sweep}/sweep.nc",
     log:
@@ -88,7 +75,7 @@ rule sweep_combine:
 rule sweep_accuracy:
     input:
         sweep="results/sweeps/{sweep}/sweep.nc",
-        src=modules(*SOLVING, "sweep/part", "sweep/accuracy"),
+        src=modules("sweep_accuracy"),
     output:
         "results/sweeps/{sweep}/accuracy.nc",
     log:
@@ -102,15 +89,7 @@ rule sweep_accuracy:
 rule sweep_indices:
     input:
         sweep="results/sweeps/{sweep}/sweep.nc",
-        src=modules(
-            *GEL,
-            "netcdf",
-            "config",
-            "sweep/__init__",
-            "sweep/plan",
-            "sweep/sampling",
-            "sweep/sensitivity",
-        ),
+        src=modules("sweep_indices"),
     output:
         "results/sweeps/{sweep}/indices.nc",
     log:
@@ -124,7 +103,7 @@ rule sweep_indices:
 rule sweep_surface:
     input:
         sweep="results/sweeps/{sweep}/sweep.nc",
-        src=modules(*DRAWING, "sweep/__init__", "sweep/part"),
+        src=modules("sweep_surface"),
     output:
         multiext("results/sweeps/{sweep}/surface", ".pdf", ".png", ".svg"),
     log:
@@ -139,7 +118,7 @@ rule sweep_surface:
 rule sweep_bars:
     input:
         indices="results/sweeps/{sweep}/indices.nc",
-        src=modules(*DRAWING),
+        src=modules("sweep_bars"),
     output:
         multiext("results/sweeps/{sweep}/bars", ".pdf", ".png", ".svg"),
     log:

@@ -9,7 +9,7 @@ TABLES = expand(
 
 rule table1_tube_parameters:
     input:
-        src=modules("tables", "text", "netcdf"),
+        src=modules("table1_tube_parameters"),
     output:
         csv="results/tables/table1_tube_parameters.csv",
         md=report(
@@ -32,7 +32,7 @@ rule table1_tube_parameters:
 
 rule table2_gel_parameters:
     input:
-        src=modules("tables", "text", "netcdf"),
+        src=modules("table2_gel_parameters"),
     output:
         csv="results/tables/table2_gel_parameters.csv",
         md=report(

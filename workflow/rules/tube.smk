@@ -13,26 +13,11 @@ TUBES = expand(
         *(f"tube_flow_{view}" for view in config["tube_flow"]),
     ],
 )
-TUBE = ["netcdf", "tube/__init__", "tube/scaling"]
-UNIFORM_TUBE = [*GEL, *TUBE, "uncertainty", "tube/tubes", "tube/deswelling", "tube/uniform"]
-WALL = [*TUBE, "tube/wall_flow", "tube/front"]
-PULSE = [
-    *GEL,
-    *WALL,
-    "bdf",
-    "finite_volume",
-    "uncertainty",
-    "tube/tubes",
-    "tube/heat",
-    "tube/lumen",
-    "tube/slender",
-    "tube/production",
-]
 
 
 rule deswelling_map:
     input:
-        src=modules(*UNIFORM_TUBE),
+        src=modules("deswelling_map"),
     output:
         f"{DATA}/deswelling_map.nc",
     log:
@@ -49,7 +34,7 @@ rule deswelling_map:
 
 rule deswelling_curves:
     input:
-        src=modules(*UNIFORM_TUBE),
+        src=modules("deswelling_curves"),
     output:
         f"{DATA}/deswelling_curves.nc",
     log:
@@ -66,7 +51,7 @@ rule deswelling_curves:
 
 rule tube_pulse:
     input:
-        src=modules(*PULSE),
+        src=modules("tube_pulse"),
     output:
         f"{DATA}/tube_pulse.nc",
     log:
@@ -86,7 +71,7 @@ rule tube_pulse:
 rule refine_tube_pulse:
     input:
         pulse=f"{DATA}/tube_pulse.nc",
-        src=modules(*PULSE),
+        src=modules("refine_tube_pulse"),
     output:
         f"{DATA}/refinement/tube_pulse.nc",
     log:
@@ -107,7 +92,7 @@ rule front_fit:
     input:
         pulse=f"{DATA}/tube_pulse.nc",
         refinement=f"{DATA}/refinement/tube_pulse.nc",
-        src=modules(*WALL, "tube/front_fit"),
+        src=modules("front_fit"),
     output:
         f"{DATA}/front_fit.nc",
     log:
@@ -124,7 +109,7 @@ rule front_fit:
 rule tube_flow:
     input:
         pulse=f"{DATA}/tube_pulse.nc",
-        src=modules(*WALL, "tube/lumen", "tube/flow_fields"),
+        src=modules("tube_flow"),
     output:
         expand(f"{DATA}/tube_flow_{{view}}.nc", view=config["tube_flow"]),
     log:
@@ -140,7 +125,7 @@ rule tube_flow:
 rule water_budget:
     input:
         pulse=f"{DATA}/tube_pulse.nc",
-        src=modules(*WALL, "tube/lumen", "tube/budget"),
+        src=modules("water_budget"),
     output:
         f"{DATA}/water_budget.nc",
     log:
@@ -155,7 +140,7 @@ rule lumen_pulse:
     input:
         pulse=f"{DATA}/tube_pulse.nc",
         fit=f"{DATA}/front_fit.nc",
-        src=modules(*GEL, *WALL, "uncertainty", "tube/lumen", "tube/lumen_pulse"),
+        src=modules("lumen_pulse"),
     output:
         f"{DATA}/lumen_pulse.nc",
     log:

@@ -16,17 +16,6 @@ PRODUCTS = [
     "results/report.html",
     "results/replication.pdf",
 ]
-VERIFY = [
-    "netcdf",
-    "text",
-    "integrity/__init__",
-    "integrity/problem",
-    "integrity/manifest",
-    "integrity/alterations",
-    "integrity/crate",
-    "integrity/build",
-    "integrity/reference",
-]
 REFERENCE = {
     "quantities": "workflow/reference/quantities.yaml",
     "values": "workflow/reference/values.json",
@@ -36,7 +25,7 @@ REFERENCE = {
 rule manifest:
     input:
         products=PRODUCTS,
-        src=modules("netcdf", "text", "integrity/__init__", "integrity/manifest"),
+        src=modules("manifest"),
     output:
         "results/manifest.json",
     log:
@@ -52,7 +41,7 @@ rule manifest:
 rule ro_crate:
     input:
         manifest="results/manifest.json",
-        src=modules("netcdf", "text", "integrity/__init__", "integrity/crate"),
+        src=modules("ro_crate"),
     output:
         "results/ro-crate-metadata.json",
     log:
@@ -68,7 +57,7 @@ rule ro_crate:
 # declare no output either, so that they run whenever they are asked for.
 rule verify:
     input:
-        src=modules(*VERIFY, "integrity/conventions", "integrity/examination", "integrity/table"),
+        src=modules("verify"),
     log:
         "results/logs/verify.log",
     params:
@@ -81,7 +70,7 @@ rule verify:
 # On purpose only, after a look at what `verify` says: rewrites workflow/reference/values.json.
 rule renew_reference:
     input:
-        src=modules(*VERIFY),
+        src=modules("renew_reference"),
     log:
         "results/logs/renew_reference.log",
     params:
@@ -95,7 +84,7 @@ rule renew_reference:
 # are shown, the README's map and verdict, and its picture.
 rule renew_map:
     input:
-        src=modules("netcdf", "text", "build_map", "claims/__init__", "claims/table"),
+        src=modules("renew_map"),
     log:
         "results/logs/renew_map.log",
     params:

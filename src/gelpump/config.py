@@ -279,6 +279,14 @@ def _choice_problems(config) -> Iterator[str]:
             for each in value if isinstance(value, list) else [value]:
                 if allowed is not None and each not in allowed:
                     yield f"{name}.{key} = {each!r}: must be one of {allowed}"
+        gel = config["gels"].get(block.get("gel"), {})
+        lowest, highest = gel.get("temperature_range", (0.0, sys.float_info.max))
+        for each in block.get("temperatures", []):
+            if not lowest <= each <= highest:
+                yield (
+                    f"{name}.temperatures = {each}: must be within "
+                    f"gels.{block['gel']}.temperature_range, {lowest} to {highest} K"
+                )
 
 
 def _published_problems(config) -> Iterator[str]:

@@ -265,6 +265,81 @@ def test_the_command_answers(capsys, monkeypatch):
     assert command.main(["no-such-file.yaml"]) == 1
 
 
+def test_the_command_takes_a_measured_gel_from_any_folder(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    points = (PROJECT / "config/gels/synthetic.csv").read_text()
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own/points.csv").write_text(points)
+    config = tmp_path / "own/mine.yaml"
+    config.write_text("gels: {mine: {model: measured, points: points.csv}}")
+    device_file = tmp_path / "device.yaml"
+    given = block("millitube", gel="mine", critical_temperature="303 K")
+    device_file.write_text(yaml.safe_dump(given))
+    assert command.main([str(device_file), "--config", str(config)]) == 0
+    assert "response time" in capsys.readouterr().out
+    assert command.main([str(device_file)]) == 1  # mine is not among the project's gels
+    assert "must be one of ['ANB', 'HHT', 'linear']" in capsys.readouterr().err
+    config.write_text("gels: {mine: {model: measured, points: no.csv}}")
+    assert command.main([str(device_file), "--config", str(config)]) == 1
+    assert "mine: points = 'no.csv': no such file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("text", ["figures: {}", "", "gels: {}"])
+def test_a_configuration_without_gels_adds_none(tmp_path, text, capsys):
+    (tmp_path / "none.yaml").write_text(text)
+    run = [str(FILES["microtube"]), "--config", str(tmp_path / "none.yaml")]
+    assert command.main(run) == (0 if text else 1)
+    assert text or "must be blocks of gels" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("text", ["gels: 3", "gels: {a: 3}", "[1, 2]"])
+def test_a_configuration_of_other_things_is_refused(tmp_path, text, capsys):
+    (tmp_path / "odd.yaml").write_text(text)
+    assert command.main([str(FILES["microtube"]), "--config", str(tmp_path / "odd.yaml")]) == 1
+    assert "must be blocks of gels by name" in capsys.readouterr().err
+
+
+def plausible(found):
+    return next(e for e in validity.before_solving(found) if e.criterion is validity.PLAUSIBLE)
+
+
+@pytest.mark.filterwarnings("ignore:eps = .* is of order one")
+@pytest.mark.parametrize("name", FILES)
+def test_no_input_may_be_absurd_under_green_lights(name):
+    """Every quantity of the examples, a thousand to 1e18 times larger and smaller."""
+    assert plausible(design(name)).light == GREEN
+    given, scanned = design(name).given, 0
+    for key in set(block(name)) & set(given):
+        value = given[key]
+        for power in (-18, -9, -6, -3, 3, 6, 9, 18):
+            moved = {key: f"{value.magnitude * 10.0**power:.6e} {value.units:~C}"}
+            try:
+                found = design(name, **moved)
+            except description.DesignError:
+                continue
+            scanned += 1
+            light = plausible(found)
+            if abs(power) > 9:
+                assert light.light == RED, moved
+            if key in ("viscosity", "permeability") and abs(power) > 6:
+                assert light.light == RED, moved
+            low, high = validity.USUAL[key]
+            moved_to = value.magnitude * 10.0**power
+            assert (light.light == GREEN) == (not validity.unusual(found))
+            if not low <= moved_to <= high:
+                assert key.replace("_", " ") in light.reason
+    assert scanned > 25
+
+
+def test_a_viscosity_in_megapascal_seconds_is_red_and_leaves_no_range():
+    thick = design("microtube", viscosity="0.89 MPa*s")
+    assert plausible(thick).light == RED
+    assert "viscosity = 8.9 × 10⁵ Pa*s, usually" in plausible(thick).reason
+    assert not any(each.feasible for each in inverse.ranges(thick, 1e9, 1e8))
+    pebble = design("microtube", permeability="1e-9 m^2")
+    assert plausible(pebble).light == RED
+
+
 @pytest.mark.parametrize("criterion", validity.CRITERIA, ids=lambda each: each.key)
 def test_every_criterion_has_three_lights(criterion):
     better, worse = (2.0, 0.5) if criterion.large else (0.5, 2.0)

@@ -13,15 +13,20 @@ with open(workflow.source_path("../schemas/config.schema.yaml")) as stream:
 
 
 def fitted_gels():
-    """Put what fits them in place of measured gels; the files of their points, by gel."""
+    """Put what fits them in place of measured gels; the files of their points, by gel.
+
+    What there is to beware of is said once, before any job.
+    """
     gels = config.get("gels")
     blocks = gels.values() if isinstance(gels, dict) else []
     if not any(isinstance(each, dict) and each.get("model") == "measured" for each in blocks):
         return {}
     from gelpump.materials import measured
 
+    folders = [".", *(Path(file).parent for file in workflow.configfiles)]
+    warn = (lambda text: logger.warning(f"warning: {text}")) if workflow.is_main_process else str
     try:
-        return measured.resolve(gels, [".", *(Path(file).parent for file in workflow.configfiles)])
+        return measured.resolve(gels, folders, warn)
     except ValueError as refusal:
         raise checked.ConfigError(f"the configuration is refused:\n  gels.{refusal}")
 

@@ -46,7 +46,7 @@ for _gel in ENERGY_GELS:
 
     rule:
         name:
-            f"gel_{_gel.replace('-', '_')}"
+            f"gel_{_gel}"
         input:
             expand("results/gels/{gel}.{suffix}", gel=_gel, suffix=["nc", "csv", "pdf"]),
         localrule: True

@@ -15,7 +15,7 @@ with job(snakemake) as provenance:
 
     params, name = snakemake.params, snakemake.wildcards.name
     design = description.checked(name, params.block, params.gels)
-    errors = None
+    errors = fit = None
     if snakemake.input.points:
         gel = params.gels[params.block["gel"]]
         points = measured.read(snakemake.input.points)
@@ -24,7 +24,7 @@ with job(snakemake) as provenance:
             errors = gel_errors.gel_errors(name, params.block, gel, fit)
         except description.DesignError as refusal:
             errors = refusal
-    data = dataset.assemble(design, params.numerics[design.kind], errors)
+    data = dataset.assemble(design, params.numerics[design.kind], errors, fit)
     netcdf.write(
         data,
         snakemake.output.data,

@@ -6,10 +6,47 @@ python -m gelpump.design config/designs/microtube.yaml --within "10 ms"
 
 import argparse
 import sys
+from pathlib import Path
+from typing import Any
 
+import gelpump
 from gelpump.config import ConfigError
 from gelpump.design import description, device, inverse, units, validity
 from gelpump.design.result import AMBER, GREEN
+
+
+def gels_for(block: Any, config: str | None = None) -> dict[str, Any]:
+    """The gels that a design's ``block`` may name: the project's, and those of the file ``config``.
+
+    The project is the folder that this is run in, or else the one that gelpump stands in. The gel
+    that is named is fitted if it is a measured one; warnings go to standard error. ConfigError.
+    """
+    from gelpump.materials import measured
+
+    folders = [Path.cwd(), Path(gelpump.__file__).parents[2]]
+    own = [path for folder in folders if (path := folder / "config/config.yaml").is_file()]
+    gels: dict[str, Any] = {}
+    for file in [*own[:1], *([Path(config)] if config else [])]:
+        given = description.read(file)
+        found = given.get("gels", {}) if isinstance(given, dict) else given
+        if not (isinstance(found, dict) and all(isinstance(b, dict) for b in found.values())):
+            raise ConfigError(f"{file}: gels: must be blocks of gels by name")
+        for name, gel in found.items():
+            gels[name] = gels.get(name, {}) | gel
+    named = block.get("gel") if isinstance(block, dict) else None
+    if isinstance(named, str) and named in gels:
+        if config:
+            folders.insert(1, Path(config).parent)
+        try:
+            measured.resolve(only := {named: gels[named]}, folders, _warn)
+        except ValueError as refusal:
+            raise ConfigError(f"gels.{refusal}") from refusal
+        gels |= only
+    return gels
+
+
+def _warn(text: str) -> None:
+    print(f"warning: {text}", file=sys.stderr)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -21,12 +58,11 @@ def main(arguments: list[str] | None = None) -> int:
     )
     parser.add_argument("file", help="a design, as in config/designs")
     parser.add_argument("--within", metavar="TIME", help='longest response time, such as "10 s"')
-    parser.add_argument("--config", default="config/config.yaml", help="where named gels stand")
+    parser.add_argument("--config", metavar="FILE", help="gels beside those of config/config.yaml")
     options = parser.parse_args(arguments)
     try:
         block = description.read(options.file)
-        config = description.read(options.config)
-        design = description.checked(options.file, block, config["gels"])
+        design = description.checked(options.file, block, gels_for(block, options.config))
         wanted = design.wanted.get("response_time")
         if options.within:
             wanted = units.parsed(options.within, "s")

@@ -1,6 +1,7 @@
 """Everything known of a design in one dataset, from which the sheet and the CSV are made."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import xarray as xr
 
@@ -12,18 +13,29 @@ from gelpump.design.inverse import ranges
 from gelpump.design.result import AMBER, GREEN, LIGHTS
 from gelpump.design.solve import solve
 
+if TYPE_CHECKING:
+    from gelpump.materials.measured import Fit
+
 
 def assemble(
-    design: Design, numerics, gel_errors: Mapping[str, float] | DesignError | None = None
+    design: Design,
+    numerics,
+    gel_errors: Mapping[str, float] | DesignError | None = None,
+    fit: "Fit | None" = None,
 ) -> xr.Dataset:
     """The solved device with scalars for each number, light_* for each assumption and range_* for
     each answer to what is wanted (dims ``lights``: no light red, all green; ``end``).
 
-    ``gel_errors`` are those of a measured gel (`gelpump.design.gel_errors`), or why there are none.
+    ``gel_errors`` are those of a measured gel (`gelpump.design.gel_errors`), or why there are none;
+    ``fit`` is its fit, whose warnings are said.
     """
     data, measured = solve(design, numerics)
     found = results(design) + measured
-    lights = validity.before_solving(design) + validity.after_solving(design, data)
+    lights = [
+        *([validity.fitted(fit)] if fit else []),
+        *validity.before_solving(design),
+        *validity.after_solving(design, data),
+    ]
     if data.attrs.get("stopped"):
         lights = [
             validity.Light(each.criterion, -1.0, data.attrs["stopped"])
@@ -84,6 +96,11 @@ def assemble(
         design_title=design.title,
         material=f"{design.material.name}: {design.material.derived}",
         **({} if gel_errors is None else {"gel_note": gel_note(gel_errors)}),
+        **(
+            {"gel_warnings": f"Of the gel’s fit: {'; '.join(fit.warnings)}."}
+            if fit and fit.warnings
+            else {}
+        ),
     )
 
 

@@ -19,7 +19,15 @@ from gelpump.design import units
 from gelpump.design.description import Design
 from gelpump.design.device import lewis_number
 from gelpump.design.result import AMBER, GREEN, LIGHTS
-from gelpump.design.validity import CONTINUUM, COUPLING, LEWIS, SLENDER, before_solving
+from gelpump.design.validity import (
+    CONTINUUM,
+    COUPLING,
+    LEWIS,
+    PLAUSIBLE,
+    SLENDER,
+    before_solving,
+    unusual,
+)
 
 MOVED = {  # which lights a parameter moves
     "radius": {CONTINUUM},
@@ -28,6 +36,15 @@ MOVED = {  # which lights a parameter moves
     "size": {CONTINUUM, COUPLING, SLENDER},
     "permeability": {LEWIS, COUPLING, CONTINUUM},
     "osmotic_modulus": {LEWIS},
+}
+TIMES = {"response_time", "recovery_time", "poroelastic_time"}
+INPUTS = {  # which inputs, and what follows from them, a parameter moves
+    "radius": {"radius", *TIMES},
+    "wall": {"a_0", *TIMES},
+    "a_1": {"a_1", *TIMES},
+    "size": {"a_0", "a_1", *TIMES},
+    "permeability": {"permeability", "Lewis_number", *TIMES},
+    "osmotic_modulus": {"osmotic_modulus", "shear_modulus", "Lewis_number", *TIMES},
 }
 
 
@@ -97,15 +114,16 @@ def ranges(design: Design, wanted: float, now: float, lights: str = AMBER) -> li
         _range("osmotic_modulus", "osmotic modulus, all moduli in proportion", "Pa", Pi_00,
                [(Pi_00 / faster, time)], [(Pi_00 * conducting, LEWIS.text)]),
     ]  # fmt: skip
-    seen = before_solving(design)
-    return [_blocked(each, seen, lights) for each in found]
+    seen, odd = before_solving(design), set(unusual(design))
+    return [_blocked(each, seen, lights, odd) for each in found]
 
 
-def _blocked(each, seen, lights) -> Range:
+def _blocked(each, seen, lights, odd) -> Range:
     """The range, or an empty one if a light is worse than ``lights`` that it does not move."""
+    moved = MOVED[each.key] | ({PLAUSIBLE} if odd <= INPUTS[each.key] else set())
     for light in seen:
         worse = LIGHTS.index(light.light) > LIGHTS.index(lights)
-        if worse and light.criterion not in MOVED[each.key]:
+        if worse and light.criterion not in moved:
             said = f"{light.light}: {light.criterion.text}"
             return replace(each, low=each.now, low_by=said, high=0.0, high_by=said)
     return each

@@ -55,7 +55,8 @@ def number_rows(data) -> list[tuple[str, str, str, str]]:
 
 def notes(data) -> list[str]:
     """What has to be said beside the numbers."""
-    found = [data.attrs[key] for key in ("lumen_note", "gel_note") if key in data.attrs]
+    keys = ("gel_warnings", "lumen_note", "gel_note")
+    found = [data.attrs[key] for key in keys if key in data.attrs]
     if dataset.answers(data):
         said = "Ranges are of one parameter at a time, the others as designed"
         if data.attrs["kind"] == "tube":

@@ -28,7 +28,76 @@ LUMEN_PRESSURE = Criterion("lumen_pressure", "the lumen's pressure is small", "�
                            "appendix B, with no slip")  # fmt: skip
 REYNOLDS = Criterion("reynolds", "the lumen's flow is slow", "Re a₀/L", 0.1, 1.0,
                      "section 3.6.2, Stokes flow")  # fmt: skip
-CRITERIA = (SLENDER, LEWIS, CLOSE, ONE_PHASE, LINEAR, COUPLING, LUMEN_PRESSURE, REYNOLDS, CONTINUUM)
+PLAUSIBLE = Criterion("plausible", "the inputs are those of gels and water", "factor", 1.0, 10.0,
+                      "usual ranges, ours")  # fmt: skip
+FIT = Criterion("fit", "the gel's curve goes through its points", "χ²/ν", 3.0, 10.0,
+                "measured equilibria, ours")  # fmt: skip
+CRITERIA = (
+    PLAUSIBLE,
+    FIT,
+    SLENDER,
+    LEWIS,
+    CLOSE,
+    ONE_PHASE,
+    LINEAR,
+    COUPLING,
+    LUMEN_PRESSURE,
+    REYNOLDS,
+    CONTINUUM,
+)
+
+
+# what is usual, lowest and highest, in SI units: given keys, then keys of `device.results`
+USUAL = {
+    "a_0": (1e-7, 0.1),
+    "a_1": (1e-7, 0.1),
+    "radius": (1e-7, 0.1),
+    "heated_length": (1e-6, 10.0),
+    "permeability": (1e-21, 1e-13),  # of a gel; sand has 1e-11, a pebble bed 1e-8 m^2
+    "viscosity": (1e-4, 2.0),  # from hot water to glycerol
+    "thermal_diffusivity": (3e-8, 1e-6),  # of liquids and gels; metals have 1e-5 to 2e-4 m^2/s
+    "critical_temperature": (250.0, 400.0),
+    "heating_step": (1e-3, 100.0),
+    "density": (500.0, 2000.0),
+    "molecule_volume": (1e-29, 1e-27),
+    "osmotic_modulus": (1.0, 1e9),
+    "shear_modulus": (0.1, 1e9),
+    "Lewis_number": (0.1, 1e7),
+    "response_time": (1e-6, 1e7),  # four months
+    "recovery_time": (1e-6, 1e7),
+    "travel_time": (1e-6, 1e7),
+}
+BEAD_USUAL = {"poroelastic_time": (1e-6, 1e7)}  # a tube's is that of its whole length
+
+
+def unusual(design: Design) -> dict[str, tuple[float, str]]:
+    """How far each key lies outside its usual range, as a factor above 1, and that in words."""
+    from gelpump.design.device import results
+
+    values = {key: (design.si(key), f"{design.given[key].units:~C}") for key in design.given}
+    values |= {each.key: (each.value, each.unit) for each in results(design)}
+    found = {}
+    for key, (low, high) in (USUAL | (BEAD_USUAL if design.kind == "bead" else {})).items():
+        if key not in values:
+            continue
+        value, unit = values[key]
+        if not low <= value <= high:
+            given = f"{told(value)} {units.readable(unit)}".removesuffix(" 1")
+            text = f"{key.replace('_', ' ')} = {given}, usually {told(low)} to {told(high)}"
+            found[key] = max(low / value, value / high), text
+    return found
+
+
+def _plausible(design: Design) -> Light:
+    found = sorted(unusual(design).values(), reverse=True)
+    reason = "; ".join(text for _, text in found) or "each is within what is usual"
+    return Light(PLAUSIBLE, found[0][0] if found else 1.0, reason)
+
+
+def fitted(fit) -> Light:
+    """How well a measured gel's curve goes through its points (`gelpump.materials.measured`)."""
+    chi2 = fit.reduced_chi2
+    return Light(FIT, chi2, f"χ² per degree of freedom is {told(chi2)}; " + "; ".join(fit.warnings))
 
 
 def smallest_diffusivity(design: Design, temperature: float | None = None) -> tuple[float, float]:
@@ -93,6 +162,7 @@ def before_solving(design: Design) -> list[Light]:
               "flow moves heat by about 1/Le"),
         Light(CONTINUUM, pores,
               f"{what} is {told(pores, 2)} times √k = {told(k**0.5 * 1e9, 2)} nm thick"),
+        _plausible(design),
         *_gel_lights(design),
     ]  # fmt: skip
     return _sorted(found)

@@ -33,7 +33,7 @@ def draw(
     fig = style.figure(height=3.2)
     ax = fig.subplots()
     _plane(ax, material, beads, cases, span)
-    _tell(fig, material, beads, cases)
+    _tell(fig, material, beads, cases, span)
     top = 1.12 * max(float(bead.polymer_fraction.max()) for bead in beads.values())
     ax.set(ylim=(0.0, top), xlabel="temperature $T$ (K)", ylabel=r"polymer fraction $\phi$")
     T, phi = _special_points(material)
@@ -50,15 +50,16 @@ def draw(
     return fig
 
 
-def _tell(fig, material, beads, cases):
-    """The equilibrium curve, the spinodal, and the path of each bead's mean."""
+def _tell(fig, material, beads, cases, span):
+    """The equilibrium curve and the spinodal as far as drawn, and the path of each bead's mean."""
     phi = material.polymer_fraction.values
     stable = material.equilibrium_is_stable.values.astype(bool)
-    T = material.temperature_equilibrium.values
+    T, spinodal = material.temperature_equilibrium.values, material.temperature_spinodal.values
+    drawn, within = ((span[0] <= each) & (each <= span[1]) for each in (T, spinodal))
     curves = [
-        ("stable equilibria", T[stable], phi[stable]),
-        ("unstable equilibria", T[~stable], phi[~stable]),
-        ("spinodal", material.temperature_spinodal.values, phi),
+        ("stable equilibria", T[stable & drawn], phi[stable & drawn]),
+        ("unstable equilibria", T[~stable & drawn], phi[~stable & drawn]),
+        ("spinodal", spinodal[within], phi[within]),
     ]
     for name, case in cases.items():
         before, after = _jump(case)

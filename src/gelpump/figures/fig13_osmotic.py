@@ -21,6 +21,8 @@ def draw(materials: Mapping) -> Figure:
     """
     fig = style.figure(height=2.6)
     axes = np.atleast_1d(fig.subplots(1, len(materials)))
+    temperatures = [gel.temperature.values for gel in materials.values()]
+    shared = all(np.array_equal(each, temperatures[0]) for each in temperatures)
     for ax, label, (name, gel) in zip(axes, "abcd", materials.items(), strict=False):
         colours = style.shades(style.TEMPERATURE, gel.sizes["temperature"])
         depth = -float(gel.osmotic_pressure.min())
@@ -38,8 +40,10 @@ def draw(materials: Mapping) -> Figure:
         style.panel_label(ax, label)
         ax.set_title(name)
         _magnify(ax, inset, gel)
+        if not shared or ax is axes[-1]:
+            beside = axes if shared else ax
+            style.steps(fig, beside, gel.temperature.values, colours, "temperature $T$ (K)")
     axes[0].set_ylabel(r"osmotic pressure $\Pi\,\Omega_f/k_BT$")
-    style.steps(fig, axes, gel.temperature.values, colours, "temperature $T$ (K)")
     return fig
 
 
@@ -64,6 +68,9 @@ def _magnify(ax, inset, gel):
     swollen = gel.equilibrium_polymer_fraction.values[
         gel.equilibrium_polymer_fraction.values < gel.fold_polymer_fraction.values.min(initial=1.0)
     ]
+    if not swollen.size:
+        inset.remove()
+        return
     right = CLOSE * swollen.max()
     near = gel.osmotic_pressure.sel(polymer_fraction=slice(0.0, right))
     height = -0.6 * float(near.min())

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from gelpump.figures import style
 from gelpump.figures.style import Quantity
 
-RANGE = (300.0, 312.0)  # K
+RANGE = (300.0, 312.0)  # K; of a gel that is not known there, its own temperatures
 NARROW = 0.2  # K: a hysteresis narrower than this needs an inset to be seen
 ARROWS = (r"\downarrow", r"\uparrow")  # a gel collapses at the swollen fold, swells at the dry one
 
@@ -23,8 +23,9 @@ def draw(materials: Mapping, published: Mapping[str, Sequence[float]]) -> Figure
     fig = style.figure(height=2.6)
     axes = np.atleast_1d(fig.subplots(1, len(materials), sharey=True))
     for ax, label, (name, gel) in zip(axes, "abcd", materials.items(), strict=False):
+        limits = _limits(gel)
         _curve(ax, gel)
-        _tell(fig, label, name, gel, published.get(name, []))
+        _tell(fig, label, name, gel, published.get(name, []), limits)
         for temperature in published.get(name, []):
             ax.plot(
                 temperature,
@@ -34,7 +35,7 @@ def draw(materials: Mapping, published: Mapping[str, Sequence[float]]) -> Figure
                 label="published $T_C$",
                 **style.PUBLISHED_MARKER,
             )
-        ax.set(xlim=RANGE, ylim=(0.0, 1.0), xlabel="temperature $T$ (K)")
+        ax.set(xlim=limits, ylim=(0.0, 1.0), xlabel="temperature $T$ (K)")
         style.panel_label(ax, label)
         ax.set_title(name)
         T, phi = _folds(gel)
@@ -49,12 +50,20 @@ def draw(materials: Mapping, published: Mapping[str, Sequence[float]]) -> Figure
     return fig
 
 
-def _tell(fig, panel, name, gel, published):
+def _limits(gel):
+    """RANGE, if the gel's own temperatures cover half of it; else these, in K."""
+    T = gel.temperature.values
+    common = min(T.max(), RANGE[1]) - max(T.min(), RANGE[0])
+    return RANGE if common >= 0.5 * (RANGE[1] - RANGE[0]) else (T.min(), T.max())
+
+
+def _tell(fig, panel, name, gel, published, limits):
     T, phi = gel.temperature_equilibrium.values, gel.polymer_fraction.values
     stable = gel.equilibrium_is_stable.values.astype(bool)
+    drawn = (limits[0] <= T) & (limits[1] >= T)
     for what, temperatures, fractions in (
-        ("stable equilibria", T[stable], phi[stable]),
-        ("unstable equilibria", T[~stable], phi[~stable]),
+        ("stable equilibria", T[stable & drawn], phi[stable & drawn]),
+        ("unstable equilibria", T[~stable & drawn], phi[~stable & drawn]),
         ("folds", *_folds(gel)),
         ("T_C published", published, 0.0),
     ):

@@ -1,19 +1,31 @@
 """A gel at a glance: equilibrium with measured points, spinodal, and jumps that part phases."""
 
+import textwrap
+
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from gelpump.figures import style
+from gelpump.materials import sheet
+
+LINE = 0.12  # inches of a line below
 
 
 def draw(data) -> Figure:
-    """Left: T_eq with its error, the points, and where D < 0. Right: which jumps separate."""
-    fig = style.figure(height=2.9)
+    """Left: T_eq with its error, the points, and where D < 0. Right: which jumps separate.
+
+    What `materials.sheet.said` has to say stands below.
+    """
+    lines = [line for each in sheet.said(data) for line in textwrap.wrap(each, 115)]
+    fig = style.figure(height=2.9 + LINE * len(lines))
     left, right = fig.subplots(1, 2, width_ratios=[1.35, 1.0])
+    if lines:
+        fig.supxlabel("\n".join(lines), fontsize=7, ha="left", x=0.02, color=style.NONLINEAR)
     T, phi = data.temperature_equilibrium.values, data.polymer_fraction.values
     stable = data.equilibrium_is_stable.values.astype(bool)
-    low, high = float(data.before[0]), float(data.before[-1])
+    shown = [data.before.values, data.measured_T.values if "measured_T" in data else []]
+    low, high = np.concatenate(shown).min(), np.concatenate(shown).max()
     spinodal = data.temperature_spinodal.values
     within = (spinodal > low - 10) & (spinodal < high + 40)
     left.plot(
@@ -30,21 +42,23 @@ def draw(data) -> Figure:
             linestyle="none", marker="o", markersize=2.5, color=style.NONLINEAR, linewidth=0.6,
             label="measured",
         )  # fmt: skip
-    left.plot(data.fold_temperature, data.fold_polymer_fraction, "s", color="black", label="fold")
-    left.set(xlim=(low, high), ylim=(0, 1), xlabel="temperature $T$ (K)",
+    if data.sizes["fold"]:
+        left.plot(data.fold_temperature, data.fold_polymer_fraction, "sk", label="fold")
+    left.set(xlim=(low - 0.5, high + 0.5), ylim=(0, 1), xlabel="temperature $T$ (K)",
              ylabel=r"polymer fraction $\phi$")  # fmt: skip
     left.legend(fontsize=7)
     style.panel_label(left, "a")
     step = np.gradient(data.before.values) / 2
     edges = np.append(data.before.values - step, data.before.values[-1] + step[-1])
     right.pcolormesh(edges, edges, data.separates.values.T,
-                     cmap=ListedColormap(["#f4f4f4", style.DRYING]),
-                     vmin=0, vmax=1, edgecolors="white", linewidth=0.5)  # fmt: skip
+                     cmap=ListedColormap(["#f4f4f4", style.DRYING, "#c0c0c0"]),
+                     vmin=0, vmax=2, edgecolors="white", linewidth=0.5)  # fmt: skip
     for i, before in enumerate(data.before.values):
         for j, after in enumerate(data.after.values):
-            if data.separates.values[i, j]:
-                right.text(before, after, "×", ha="center", va="center")
+            mark = ("", "×", "–")[int(data.separates.values[i, j])]
+            right.text(before, after, mark, ha="center", va="center")
     right.set(xlabel="before the jump (K)", ylabel="after the jump (K)", aspect="equal")
-    right.set_title("× phases separate", fontsize=8)
+    none = "" if np.all(data.separates < sheet.NO_STATE) else ", – no stable state"
+    right.set_title(f"× phases separate{none}", fontsize=8)
     style.panel_label(right, "b")
     return fig

@@ -13,6 +13,8 @@ are not given, it is scaled by the scatter.
 
 import csv
 import math
+import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -27,6 +29,8 @@ ERRORS = ("temperature_error", "polymer_fraction_error")
 FEWEST, MOST = 6, 10_000
 COLDEST, HOTTEST = 200.0, 500.0  # K: outside, the column is hardly in kelvin
 USUAL_ERROR = {"temperature_error": 0.1, "polymer_fraction_error": 0.01}  # second one relative
+COLLAPSED = 0.25  # polymer fraction: above it a gel counts as collapsed
+FAR = 5.0  # standard errors, or scatters, from a stable branch, at which a point is not on it
 
 
 @dataclass(frozen=True)
@@ -138,9 +142,9 @@ def fit(name: str, points: Points, temperature_range=None) -> Fit:
         spread = np.hypot(along * points.phi_error, (c1 + 2 * phi * B1) * points.T_error)
         return (free - columns @ p) / spread, spread
 
-    refused = (
-        f"{name}: the points do not determine five parameters: they must cover several "
-        "temperatures and, best, both states"
+    missing = missing_state(points)
+    refused = f"{name}: the points do not determine five parameters: " + (
+        missing or "they must cover several temperatures and, best, both states"
     )
     if (
         np.linalg.matrix_rank(
@@ -165,6 +169,8 @@ def fit(name: str, points: Points, temperature_range=None) -> Fit:
         raise ValueError(f"{name}: the points cannot be fitted: {problem}") from problem
     p = np.linalg.solve(R, best.x)
     if not p[0] > 0:
+        if missing:
+            raise ValueError(refused)
         raise ValueError(f"{name}: the points give 1/Omega = {p[0]:.3g}: must be greater than 0")
     inverse = np.linalg.solve(R, np.linalg.pinv(best.jac))
     covariance = inverse @ inverse.T
@@ -188,7 +194,44 @@ def fit(name: str, points: Points, temperature_range=None) -> Fit:
     covariance = turn @ covariance @ turn.T
     span = temperature_range or (float(points.T.min() - 5), float(points.T.max() + 5))
     gel = EnergyBasedGel(name, **{key: float(values[key]) for key in NAMES}, temperature_range=span)
+    scatter = 1.0 if points.errors_given else max(1.0, 1.4826 * float(np.median(np.abs(best.fun))))
+    _require_stable(gel, points, scatter, missing)
     return Fit(gel, covariance, chi2, tuple(_warnings(gel, covariance, chi2, points)))
+
+
+def missing_state(points: Points) -> str:
+    """In words, which of the two states no point is in; "" if both are there."""
+    for state, missing in (
+        ("collapsed", np.all(points.phi < COLLAPSED)),
+        ("swollen", np.all(points.phi > COLLAPSED)),
+    ):
+        if missing:
+            return (
+                f"the {state} state is missing (phi from {points.phi.min():.3g} to "
+                f"{points.phi.max():.3g}, none {'above' if state == 'collapsed' else 'below'} "
+                f"{COLLAPSED:g})"
+            )
+    return ""
+
+
+def _require_stable(gel, points, scatter, missing):
+    """ValueError unless each point lies within FAR times its error of a stable branch.
+
+    The distance is that to the drawn curve, in errors; they are multiplied by ``scatter``.
+    """
+    phi = np.concatenate([np.geomspace(1e-5, 0.05, 2000), np.linspace(0.05, 0.9999, 20_000)])
+    phi = np.sort(np.concatenate([phi, points.phi]))
+    T = gel.equilibrium_temperature(phi)
+    stable = (gel.osmotic_modulus(phi, T) > 0) & (T > 0)
+    for t, f, *errors in zip(points.T, points.phi, points.T_error, points.phi_error, strict=True):
+        distance = np.hypot((T - t) / errors[0], (phi - f) / errors[1]) / scatter
+        nearest = distance[stable].min(initial=np.inf)
+        if nearest > FAR and not stable[distance.argmin()]:
+            raise ValueError(
+                f"{gel.name}: the point at {t:g} K, phi = {f:g} lies on the unstable branch of the "
+                f"best fit, {nearest:.3g} errors away from a stable one: what is measured is "
+                "stable, so this form cannot represent these points" + (missing and f"; {missing}")
+            )
 
 
 def _warnings(gel, covariance, chi2, points):
@@ -196,30 +239,31 @@ def _warnings(gel, covariance, chi2, points):
         value = getattr(gel, name)
         if error > abs(value) / 2:
             yield f"{name} = {value:.4g} is not identified: its standard error is {error:.2g}"
+    if missing := missing_state(points):
+        yield f"{missing}: what the fit says of it is extrapolated"
     if points.errors_given and not 0.3 < chi2 < 3:
         yield f"chi^2 per degree of freedom is {chi2:.2g}: the form or the errors do not fit"
     if not points.errors_given:
         yield "errors were not given for both columns: they are estimated from the scatter"
+        if chi2 > 3:
+            usual = "{temperature_error:g} K and {polymer_fraction_error:.0%}".format(**USUAL_ERROR)
+            yield (
+                f"the points scatter about the fit {chi2**0.5:.2g} times as far as errors of "
+                f"{usual} would: the points scatter or the form does not fit"
+            )
+    T = np.sort(gel.folds().temperature)
+    if len(T) > 1 and not _both_branches(gel, points, T[0], T[-1]):
+        yield (
+            f"the fit has a hysteresis from {T[0]:.2f} to {T[-1]:.2f} K, but no temperature is "
+            "measured in both states there"
+        )
 
 
-def separates(gel: EnergyBasedGel, T_before: float, T_after: float) -> str:
-    """In words, whether phases separate on the way after a jump of temperature; "" if not.
-
-    The bead passes the polymer fractions from one equilibrium to the other at ``T_after``; between
-    the spinodal polymer fractions D < 0 there.
-    """
-    branch = "swollen" if T_after > T_before else "dry"
-    start, end = (gel.equilibrium_polymer_fraction(T, branch) for T in (T_before, T_after))
-    crossed = [
-        phi for phi in gel.spinodal_polymer_fractions(T_after)
-        if min(start, end) < phi < max(start, end)
-    ]  # fmt: skip
-    if not crossed:
-        return ""
-    return (
-        f"a jump from {T_before:g} K to {T_after:g} K takes phi from {start:.3g} to {end:.3g}, "
-        f"through D < 0 beyond phi = {crossed[0]:.3g}: phases separate"
-    )
+def _both_branches(gel, points, low, high):
+    """Whether points of both states lie within the temperatures of the hysteresis."""
+    within = (low <= points.T) & (high >= points.T)
+    middle = gel.folds().polymer_fraction.mean()
+    return len(set(points.phi[within] > middle)) == 2
 
 
 def find(points: str, folders) -> Path:
@@ -230,10 +274,12 @@ def find(points: str, folders) -> Path:
     raise ValueError(f"points = {points!r}: no such file in {[str(f) for f in folders]}")
 
 
-def resolve(gels: dict, folders=(".",)) -> dict[str, str]:
+def resolve(
+    gels: dict, folders=(".",), warn: Callable[[str], None] = warnings.warn
+) -> dict[str, str]:
     """Put the fitted energy-based block in place of each measured one; the files they came from.
 
-    ValueError, with the gel, for points that are refused.
+    ``warn`` gets what there is to beware of. ValueError, with the gel, for points that are refused.
     """
     files = {}
     for name, block in gels.items():
@@ -247,9 +293,13 @@ def resolve(gels: dict, folders=(".",)) -> dict[str, str]:
             )
         try:
             path = find(block["points"], folders)
-            gel = fit(name, read(path), block.get("temperature_range")).gel
+            found = fit(name, read(path), block.get("temperature_range"))
         except ValueError as refusal:
-            raise ValueError(f"{name}: {refusal}") from refusal
+            said = str(refusal).removeprefix(f"{name}: ")
+            raise ValueError(f"{name}: {said}") from refusal
+        for text in found.warnings:
+            warn(f"gel {name}: {text}")
+        gel = found.gel
         files[name] = path.as_posix()
         gels[name] = {"model": "energy-based"} | {key: getattr(gel, key) for key in NAMES}
         gels[name]["temperature_range"] = list(gel.temperature_range)

@@ -5,25 +5,52 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gelpump.materials import measured, tables
+from gelpump.materials.jumps import jump
 
 if TYPE_CHECKING:
     import xarray as xr
 
-DRAWS = 200  # of the parameters' normal distribution, for the bands
+NO_PHASES, SEPARATES, NO_STATE = 0, 1, 2  # what a jump of temperature comes to
 
 
 def assembled(gel, temperatures, count, fit=None, points=None) -> "xr.Dataset":
     """`tables.tabulated` with ``separates(before, after)``, and the fit with its points if any.
 
-    ``equilibrium_error`` is the standard deviation of T_eq over draws of the parameters.
+    Jumps are those between the gel's ``temperature`` values; ``unstable(before, after, end)`` is
+    the whole stretch, from the first polymer fraction with D < 0 that is met to the last, 0 where
+    there is none. ``equilibrium_error`` is the standard deviation of T_eq that the covariance of
+    the parameters leaves, to first order.
     """
     data = tables.tabulated(gel, temperatures, count)
-    T = np.asarray(temperatures, float)
-    parted = np.array([[bool(measured.separates(gel, a, b)) if a != b else False for b in T]
-                       for a in T])  # fmt: skip
-    text = {"units": "1", "long_name": "whether phases separate after a jump of temperature"}
+    T = data.temperature.values
+    parted = np.zeros((len(T), len(T)), "i1")
+    unstable = np.zeros((len(T), len(T), 2))
+    for i, before in enumerate(T):
+        for j, after in enumerate(T):
+            try:
+                met = jump(gel, before, after).unstable if before != after else ()
+            except ValueError:
+                parted[i, j] = NO_STATE
+                continue
+            if met:
+                parted[i, j] = SEPARATES
+                unstable[i, j] = met[0][0], met[-1][1]
     data = data.assign(
-        separates=(("before", "after"), parted.astype("i1"), text),
+        separates=(
+            ("before", "after"),
+            parted,
+            {
+                "units": "1",
+                "long_name": "whether phases separate after a jump of temperature",
+                "flag_values": np.array([NO_PHASES, SEPARATES, NO_STATE], "i1"),
+                "flag_meanings": "no yes no_stable_state",
+            },
+        ),
+        unstable=(
+            ("before", "after", "end"),
+            unstable,
+            {"units": "1", "long_name": "first and last polymer fraction with D < 0 on the way"},
+        ),
         **{name: ((), getattr(gel, name), _attributes(name)) for name in measured.NAMES},
     ).assign_coords(
         before=("before", T, {"units": "K", "long_name": "temperature before the jump"}),
@@ -55,8 +82,7 @@ def assembled(gel, temperatures, count, fit=None, points=None) -> "xr.Dataset":
         fit.covariance,
         {"units": "1", "long_name": f"covariance of {', '.join(measured.NAMES)}, in K and 1"},
     )
-    data.attrs["warnings"] = "; ".join(fit.warnings) or "none"
-    return data
+    return data.assign_attrs({"warnings": "; ".join(fit.warnings)} if fit.warnings else {})
 
 
 def _attributes(name):
@@ -78,8 +104,21 @@ def _spread(fit, phi):
     return np.sqrt(np.maximum(np.einsum("ip,ij,jp->p", slopes, fit.covariance, slopes), 0.0))
 
 
+def said(data) -> list[str]:
+    """What has to be said of the gel wherever it is shown: warnings, and what it has not."""
+    return [
+        f"{what}: {each}"
+        for what, key in (("warning", "warnings"), ("left out", "left_out"))
+        for each in data.attrs.get(key, "").split("; ")
+        if each
+    ]
+
+
 def rows(data, gel):
-    """Rows of the table: parameters, folds, spinodal tip, and the jumps that part phases."""
+    """Rows of the table: warnings, parameters, folds, spinodal tip, and what jumps part phases."""
+    for each in said(data):
+        what, _, text = each.partition(": ")
+        yield what, "", text
     for name in measured.NAMES:
         error = f"{name}_uncertainty"
         yield name, float(data[name]), f"{float(data[error]):.3g}" if error in data else ""
@@ -90,9 +129,12 @@ def rows(data, gel):
     T = data.before.values
     for i, before in enumerate(T):
         for j, after in enumerate(T):
-            if data.separates.values[i, j]:
+            verdict = int(data.separates[i, j])
+            if verdict == SEPARATES:
                 yield (
                     f"jump {before:g} K to {after:g} K",
                     "phases separate",
-                    measured.separates(gel, before, after),
+                    str(jump(gel, before, after)),
                 )
+            elif verdict == NO_STATE:
+                yield f"jump {before:g} K to {after:g} K", "no stable state at one of them", ""

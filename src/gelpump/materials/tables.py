@@ -1,7 +1,6 @@
 """Curves and special points of an energy-based gel as one dataset (appendix A)."""
 
 from collections.abc import Sequence
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +11,7 @@ if TYPE_CHECKING:
     from gelpump.materials import EnergyBasedGel
 
 SWOLLEN_POINTS = 200
+FOLLOWING = 7  # temperatures of a gel in whose range the given ones do not lie
 
 
 def polymer_fractions(count: int) -> np.ndarray:
@@ -21,25 +21,45 @@ def polymer_fractions(count: int) -> np.ndarray:
     return 0.5 + (0.5 - 1e-4) * shape
 
 
+def temperatures_of(gel: "EnergyBasedGel", given: Sequence[float]) -> np.ndarray:
+    """Those of the ``given`` temperatures (K) that lie in the gel's range.
+
+    If these are fewer than two, as many as `FOLLOWING` that are spread over the range.
+    """
+    lowest, highest = gel.temperature_range
+    T = np.asarray(given, dtype=float)
+    inside = T[(lowest <= T) & (highest >= T)]
+    return inside if len(inside) > 1 else np.linspace(lowest, highest, FOLLOWING)
+
+
 def tabulated(gel: "EnergyBasedGel", temperatures: Sequence[float], count: int) -> "xr.Dataset":
-    """Dims polymer_fraction (``count``), temperature (K), fold, equilibrium, swollen_temperature.
+    """The gel's curves, at those of ``temperatures`` that are the gel's (`temperatures_of`).
+
+    Dims polymer_fraction (``count``, without those at a pole of T_eq or T_sp), temperature (K),
+    fold, equilibrium, swollen_temperature.
 
     Pi and D at each (temperature, polymer_fraction), in k_B T/Omega_f; T_eq and T_sp of each
     polymer fraction; folds of the equilibrium curve, and the tip of the spinodal if it has one;
     every equilibrium of the given temperatures, listed along ``equilibrium`` with its temperature
     and whether it is stable; the swollen phi_0 and its low-temperature asymptote, on
-    temperatures up to the transition.
+    temperatures up to the transition. What the gel does not have is left out, and the attribute
+    ``left_out`` says so.
     """
     import xarray as xr
 
     phi = polymer_fractions(count)
-    T = np.asarray(temperatures, dtype=float)
+    off_pole = np.isfinite(gel.equilibrium_temperature(phi) + gel.spinodal_temperature(phi))
+    phi = phi[off_pole]
+    T = temperatures_of(gel, temperatures)
     curves = ("temperature", "polymer_fraction")
     folds = gel.folds()
     roots = [gel.equilibrium_polymer_fractions(each) for each in T]
-    lowest, highest = gel.temperature_range
-    transition = folds.temperature.max(initial=min(gel.singular_temperature, highest))
-    cold = np.linspace(lowest, transition, SWOLLEN_POINTS, endpoint=False)
+    left_out: list[str] = []
+    if len(outside := np.setdiff1d(temperatures, T)):
+        span = "{:g} to {:g} K".format(*gel.temperature_range)
+        told = ", ".join(f"{each:g}" for each in outside)
+        left_out.append(f"temperatures {told} K lie outside the gel's range, {span}")
+    cold, swollen = _swollen(gel, folds, left_out)
     pressure = {"units": "1", "comment": "in units of k_B T/Omega_f"}
 
     def kelvin(long_name):
@@ -74,21 +94,7 @@ def tabulated(gel: "EnergyBasedGel", temperatures: Sequence[float], count: int) 
             gel.diffusivity(phi, T[:, None]),
             pressure | {"long_name": "polymer diffusivity times mu_l/k"},
         ),
-        "swollen_polymer_fraction": (
-            "swollen_temperature",
-            np.array([gel.equilibrium_polymer_fraction(each) for each in cold]),
-            fraction("equilibrium polymer fraction of the swollen state"),
-        ),
-        "asymptotic_polymer_fraction": (
-            "swollen_temperature",
-            gel.asymptotic_polymer_fraction(cold),
-            fraction("low-temperature asymptote of the equilibrium polymer fraction"),
-        ),
-        "singular_temperature": (
-            (),
-            gel.singular_temperature,
-            kelvin("temperature at which the low-temperature asymptote diverges"),
-        ),
+        **swollen,
         "fold_temperature": (
             "fold",
             folds.temperature,
@@ -115,8 +121,11 @@ def tabulated(gel: "EnergyBasedGel", temperatures: Sequence[float], count: int) 
             fraction("whether an equilibrium is stable"),
         ),
     }
-    with suppress(ValueError):  # it has none
+    try:
         tip = gel.spinodal_tip()
+    except ValueError as refusal:
+        left_out.append(str(refusal).partition(": ")[2])
+    else:
         variables["spinodal_tip_temperature"] = (
             (),
             tip.temperature,
@@ -132,11 +141,39 @@ def tabulated(gel: "EnergyBasedGel", temperatures: Sequence[float], count: int) 
         coords={
             "polymer_fraction": ("polymer_fraction", phi, fraction("polymer volume fraction")),
             "temperature": ("temperature", T, kelvin("temperature")),
-            "swollen_temperature": (
-                "swollen_temperature",
-                cold,
-                kelvin("temperature below the transition"),
-            ),
+            **cold,
         },
-        attrs={"gel": gel.name},
+        attrs={"gel": gel.name} | ({"left_out": "; ".join(left_out)} if left_out else {}),
     )
+
+
+def _swollen(gel, folds, left_out):
+    """Coordinate and variables of the swollen branch below the transition, as far as it exists."""
+    lowest, highest = gel.temperature_range
+    singular = gel.singular_temperature
+    transition = folds.temperature.max(initial=min(singular, highest))
+    cold = np.linspace(lowest, transition, SWOLLEN_POINTS, endpoint=False)
+    try:
+        if transition <= lowest:
+            raise ValueError(f"{gel.name}: the range begins above the transition")
+        phi_0 = np.array([gel.equilibrium_polymer_fraction(each) for each in cold])
+    except ValueError as refusal:
+        left_out.append(f"no swollen branch: {str(refusal).partition(': ')[2]}")
+        return {}, {}
+    text = {"units": "1", "long_name": "equilibrium polymer fraction of the swollen state"}
+    variables = {"swollen_polymer_fraction": ("swollen_temperature", phi_0, text)}
+    asymptote = gel.asymptotic_polymer_fraction(cold)
+    if np.all(np.isfinite(asymptote)):
+        text = "low-temperature asymptote of the equilibrium polymer fraction"
+        variables["asymptotic_polymer_fraction"] = (
+            "swollen_temperature",
+            asymptote,
+            {"units": "1", "long_name": text},
+        )
+    else:
+        left_out.append("no low-temperature asymptote: chi - 1/2 does not stay below 0 as phi -> 0")
+    if np.isfinite(singular):
+        text = "temperature at which the low-temperature asymptote diverges"
+        variables["singular_temperature"] = ((), singular, {"units": "K", "long_name": text})
+    text = {"units": "K", "long_name": "temperature below the transition"}
+    return {"swollen_temperature": ("swollen_temperature", cold, text)}, variables

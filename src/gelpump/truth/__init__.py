@@ -1,0 +1,1 @@
+"""The tube without slenderness: fully nonlinear poroelasticity in two dimensions."""

@@ -68,8 +68,8 @@ def test_profiles_are_measured_as_drawn():
     assert misfit < 1e-10
     at = np.arctanh([0.8, 0.0, -0.8]) / 1.3
     assert crossings(z, Phi, 2.0, 1.0) == pytest.approx(at, abs=1e-3)
-    step = np.where(np.arange(z.size) < 90, 1.7, 1.2)
-    assert crossings(z, step, 2.0, 1.0)[1] == pytest.approx(0.0, abs=1e-12)
+    step = np.where(np.arange(z.size) < 90, 1.95, 1.05)
+    assert np.abs(crossings(z, step, 2.0, 1.0)).max() < 1e-12
 
 
 def test_the_pulse_keeps_its_water_and_becomes_the_wave():

@@ -51,7 +51,7 @@ def derivative_weights(times: np.ndarray) -> np.ndarray:
     return weights
 
 
-def interpolation_weights(times: np.ndarray, t: float) -> np.ndarray:
+def interpolation_weights(times: np.ndarray, t: complex) -> np.ndarray:
     """Weights w with sum_j w_j y(times_j) = y(t) for polynomials of degree len(times) - 1."""
     nodes = np.asarray(times, dtype=float)
     gaps = nodes[:, None] - nodes[None, :]

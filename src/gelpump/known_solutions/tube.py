@@ -15,13 +15,25 @@ Phi leaves a remainder H,
 
 which the production solver (``slender.Family``: its mesh, fluxes, Jacobian, front and time steps)
 gets as a source beside its own: S + lambda^4 H/3.  That it then returns Phi verifies the passage
-from the printed equation to the material one as well, integral and jump included.
+from the printed equation to the material one as well, integral and jump included.  For the closures
+that conserve water (`gelpump.tube.closure`) the left side has (2/3)(D/Phi) Phi_Z^2 more, F the w
+and the Phi_s of the closure.
 
 Relaxation.  A swollen tube that no front disturbs, with walls lambda = 1 + delta cos(kX), relaxes
 as exp(-D (k^2 + 1/w^2) tau), D = s + 4M/3: the linearised source and axial diffusion together.
 
 Thin walls.  For ell -> 1 the front stands still on the length w: (K lambda_X)_X = S, which one
 integration on each side turns into an equation for lambda at the front.
+
+A resting front.  Heat that has come to rest leaves (lambda^2 K lambda_X)_X = lambda^2 S of a wall
+that conserves water; with j = lambda^2 K lambda_X, j dj = lambda^4 K S dlambda, so that
+Q_hot(lambda_f) - Q_hot(Phi_inf^{-1/3}) = Q_cold(lambda_f) - Q_cold(1) where, for Phi_s = Phi_0,
+
+    Q = Integral (s/lambda + m lambda)^2 (Phi_0 - lambda^{-3})/3 dlambda,    m = 4M/3
+      = (1/3) [ Phi_0 (m^2 lambda^3/3 + 2 s m lambda - s^2/lambda)
+                + s^2/(4 lambda^4) + s m/lambda^2 - m^2 ln lambda ] .
+
+Nothing moves any more, so the wall sheds nothing, whatever it takes in ahead and gives off behind.
 """
 
 from functools import partial
@@ -34,6 +46,7 @@ from gelpump.bdf import integrate
 from gelpump.finite_volume import together
 from gelpump.known_solutions.study import Study, one_run, space, time
 from gelpump.tube import slender
+from gelpump.tube.closure import Printed, named
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.tubes import Tubes
 
@@ -46,14 +59,16 @@ HEIGHT = 0.4  # B
 GROWTH = 0.5  # tau_0, in units of the end
 AMPLITUDE = 1e-3  # of the linear mode
 FIRST_STEP = 1e-3  # of the whole time; its formula is of first order
+RESTING = REACH_AT_REST = 40.0  # Z_C/w of a front at rest, and what lies ahead of it
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 
 class Manufactured:
     """The solution of the module's docstring for one tube; lengths in L, tau as in the paper."""
 
-    def __init__(self, tubes: Tubes, heat):
-        self.w, self.M = float(tubes.wall_length), float(tubes.M)
+    def __init__(self, tubes: Tubes, heat, closure: Printed = slender.PRINTED):
+        self.closure = closure
+        self.w, self.M = float(closure.wall_length(tubes)), float(tubes.M)
         self.hot = float(tubes.Pi_ratio / tubes.Phi_inf), float(tubes.Phi_inf)
         self.cold = 1.0, 1.0
         self.heat = heat
@@ -98,8 +113,8 @@ class Manufactured:
             return from_to(0.0, Z, True)
         return from_to(0.0, np.array([Z_C]), True) + from_to(Z_C, Z, False)
 
-    def printed_remainder(self, Z, tau, hot: bool):
-        """H, from eqn:tube_model as printed."""
+    def remainder(self, Z, tau, hot: bool):
+        """H, from eqn:tube_model as printed, or with what the closure puts in its place."""
         s, Phi_0 = self.hot if hot else self.cold
 
         def integrand(Z, side):
@@ -108,9 +123,14 @@ class Manufactured:
         Phi, Phi_Z, Phi_ZZ = self.Phi(Z, tau, hot)
         D = self.diffusivity(Phi, s)
         D_slope = s + 4 * self.M / 9 * Phi ** (-2 / 3)
+        advected = 1.0
+        if self.closure.conserves_water:
+            advected = 5 / 3
+            Phi_0, _ = self.closure.surface(Phi ** (-1 / 3), s, Phi_0, self.M)
         F = Phi ** (2 / 3) * D * (Phi_0 - Phi) / self.w**2
         G = self._integral(integrand, Z, tau, hot)
-        left = self.Phi_tau(Z, tau, hot) + D / Phi * Phi_Z**2 - Phi ** (-1 / 3) * Phi_Z * G / 3
+        left = self.Phi_tau(Z, tau, hot) + advected * D / Phi * Phi_Z**2
+        left -= Phi ** (-1 / 3) * Phi_Z * G / 3
         return left - F - (D_slope * Phi_Z**2 + D * Phi_ZZ)
 
     def material_point(self, X, guess, tau, hot: bool):
@@ -132,7 +152,8 @@ class ForcedFamily(slender.Family):
     """One tube of production, with the remainder of a manufactured solution as a further source."""
 
     def __init__(self, problem: Manufactured, tubes, cells, tolerance):
-        super().__init__(tubes, problem.heat, cells, REACH, slender.NEWTON_SHARE * tolerance)
+        accuracy = slender.NEWTON_SHARE * tolerance
+        super().__init__(tubes, problem.heat, cells, REACH, accuracy, problem.closure)
         self.problem, self.forcing = problem, 0.0
         self.sides = (slice(0, self.behind), True), (slice(self.behind, None), False)
         self.shortening = np.ones(self.cells)  # Z/X, of the last time
@@ -153,19 +174,22 @@ class ForcedFamily(slender.Family):
         X = super().faces(t, X_C)
         if t > 0:
             Z, Phi = self.exact(X, t)
-            H = [self.problem.printed_remainder(Z[cells], t * t, hot) for cells, hot in self.sides]
+            H = [self.problem.remainder(Z[cells], t * t, hot) for cells, hot in self.sides]
             self.forcing = np.concatenate(H) * Phi ** (-4 / 3) / 3
         return X
 
     def source(self, stretch):
-        """w^2 (S + lambda^4 H/3), and the derivative of what depends on lambda."""
+        """w^2 (S + lambda^4 H/3), or what the content loses by it, and its derivative; H is held."""
         S, slope = super().source(stretch)
-        return S + self.problem.w**2 * self.forcing, slope
+        forcing = self.problem.w**2 * self.forcing * self.closure.content_slope(stretch)
+        if self.closure.conserves_water:
+            slope = slope + 2 * forcing / stretch
+        return S + forcing, slope
 
 
-def manufactured(cells: tuple[int, int], tolerance: float):
+def manufactured(cells: tuple[int, int], tolerance: float, closure: str = "printed"):
     """Phi in the cells and at the front, the errors of both, and the number of steps."""
-    problem = Manufactured(TUBE, HEAT)
+    problem = Manufactured(TUBE, HEAT, named(closure))
     family = ForcedFamily(problem, TUBE, cells, tolerance)
     last, steps = _march(family, family.initial(), np.sqrt(problem.end), tolerance)
     stretch, _, X = family.unpack(last.solution)
@@ -190,6 +214,17 @@ def _march(family, start, end, tolerance):
         steps += 1
         last = step
     return last, steps
+
+
+class Resting:
+    """A front that has come to rest at Z = RESTING w."""
+
+    def __init__(self, w: float):
+        self.Z_C = RESTING * w
+
+    def front(self, tau):
+        """Z_C."""
+        return self.Z_C
 
 
 class Standing:
@@ -249,6 +284,47 @@ def thin_wall(cells: tuple[int, int]) -> tuple[float, float]:
     return abs(tube.Phi1_front.item() - stretch**-3), float(abs(flux - 1))
 
 
+def at_rest(tubes: Tubes, cells: tuple[int, int]):
+    """A family of one tube that conserves water, its lambda and its faces, once all is at rest."""
+    closure = named("conservative")
+    w = float(closure.wall_length(tubes))
+    family = slender.Family(tubes, Resting(w), cells, REACH_AT_REST, 1e-5, closure)
+    dry = tubes.Phi_inf ** (-1 / 3)
+    X = family.faces(1.0, np.array([[RESTING / dry]]))
+    middle = (X[:, 1:] + X[:, :-1]) / 2 - X[:, family.behind, None]
+    state = family.pack(dry + (1 - dry) * (1 + np.tanh(middle)) / 2, X)
+    with np.errstate(over="ignore"):  # `limit` divides by the drift of the faces, here none
+        for step in np.geomspace(1e-2, 1e12, 15):  # of tau, in units of w^2
+            alpha = 2 / (step * w**2)
+            state = family.advance(1.0, state, alpha, -alpha * state)
+    stretch, _, X = family.unpack(state)
+    return family, stretch, X
+
+
+def resting_front(cells: tuple[int, int], tubes: Tubes = TUBE) -> tuple[float, float]:
+    """Error of Phi_1 at a front that has come to rest, and what its wall sheds all the same.
+
+    The latter as a share of what goes round, out behind the front and in ahead of it.
+    """
+    family, stretch, X = at_rest(tubes, cells)
+    source = family.source(stretch)[0] * np.diff(X)
+    shed = abs(source.sum()) / np.abs(source).sum() * 2
+    Phi = family.inner_faces(stretch, X)[2][0, family.behind - 1] ** -3.0
+    s, M, Phi_inf = float(tubes.Pi_ratio / tubes.Phi_inf), float(tubes.M), float(tubes.Phi_inf)
+
+    def work(y, s, Phi_0):
+        m = 4 * M / 3
+        polynomial = m**2 * y**3 / 3 + 2 * s * m * y - s**2 / y
+        return Phi_0 * polynomial + s**2 / (4 * y**4) + s * m / y**2 - m**2 * np.log(y)
+
+    def imbalance(y):
+        hot = work(y, s, Phi_inf) - work(Phi_inf ** (-1 / 3), s, Phi_inf)
+        return hot - work(y, 1.0, 1.0) + work(1.0, 1.0, 1.0)
+
+    exact = brentq(imbalance, Phi_inf ** (-1 / 3) + 1e-9, 1 - 1e-9) ** -3.0
+    return abs(Phi - exact), shed
+
+
 def without_jump() -> Study:
     """A gel that heat does not change stays as it is."""
     tube = slender.solve(
@@ -258,13 +334,14 @@ def without_jump() -> Study:
     return one_run("tube without a jump", "change of Phi_1", change, 1e-9)
 
 
-def spreading_front() -> list[Study]:
+def spreading_front(closure: str = "printed") -> list[Study]:
     """Orders in space and in time on the manufactured solution."""
-    name, meshes, tolerances = "manufactured tube", [(16, 16), (32, 32), (64, 64)], [1e-4, 1e-5]
+    meshes, tolerances = [(16, 16), (32, 32), (64, 64)], [1e-4, 1e-5]
+    name = "manufactured tube" + ("" if closure == "printed" else f", {closure}")
     counts = [sum(mesh) for mesh in meshes]
     runs = together(
-        *(partial(manufactured, mesh, 3e-7) for mesh in meshes),
-        *(partial(manufactured, meshes[0], tolerance) for tolerance in tolerances),
+        *(partial(manufactured, mesh, 3e-7, closure) for mesh in meshes),
+        *(partial(manufactured, meshes[0], tolerance, closure) for tolerance in tolerances),
     )
     fine, loose = runs[: len(meshes)], runs[len(meshes) :]
     cells = [np.abs(error[:-1]).max() for _, error, _ in fine]
@@ -281,15 +358,22 @@ def spreading_front() -> list[Study]:
 def studies() -> list[Study]:
     """All studies of the tube."""
     meshes = [(16, 16), (32, 32), (64, 64)]
-    front, (in_front, flux), rest, *rates = together(
+    front, conserving, (in_front, flux), rest, *more = together(
         spreading_front,
+        partial(spreading_front, "conservative"),
         partial(thin_wall, (128, 80)),
         without_jump,
         *(partial(relaxation, mesh, 1e-8) for mesh in meshes),
+        *(partial(resting_front, mesh) for mesh in meshes),
     )
+    rates, at_rest = more[: len(meshes)], np.array(more[len(meshes) :])
+    counts = [sum(mesh) for mesh in meshes]
     return [
         *front,
-        space("relaxing tube", "rate of the mode", [sum(mesh) for mesh in meshes], rates, 4e-4),
+        *conserving,
+        space("resting front, conservative", "Phi_1 at Z_C", counts, at_rest[:, 0], 2e-3),
+        one_run("resting front, conservative", "water shed", at_rest[:, 1].max(), 1e-8),
+        space("relaxing tube", "rate of the mode", counts, rates, 4e-4),
         one_run("thin wall, ell = 0.9995", "Phi_1 at Z_C", in_front, 1e-3),
         one_run("thin wall, ell = 0.9995", "flux at Z_C", flux, 1e-3),
         rest,

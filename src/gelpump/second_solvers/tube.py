@@ -11,6 +11,12 @@ d/dZ(Phi^{-1/3} G) = F/Phi + d/dZ(D Phi_Z/Phi), so that no time derivative is le
 I is solved for together with Phi: the Jacobian stays banded, and the system becomes one of ordinary
 and algebraic equations, which is why this is IDA, CVODE's sibling.  The nodes move with the front,
 and one of them is the front, where the condition is continuity of D Phi_Z.
+
+Where water is conserved, the equation has (2/3)(D/Phi) Phi_Z^2 more on its left; the polymer's
+velocity then gives
+
+    Phi_tau + [ (4/3)(D/Phi) Phi_Z - I/3 ] Phi_Z = F + (D Phi_Z)_Z ,
+    I' = F/Phi - (2/3) D (Phi_Z/Phi)^2 .
 """
 
 from collections.abc import Mapping
@@ -29,12 +35,52 @@ SAFETY = 1.25  # of the grid-convergence index
 COARSER = 10.0  # times looser are the tolerances of the coarse run
 
 
-def solve(tau, ell, eps=0.1, M=1.0, Pi_ratio=1.0, Phi_inf=2.0, Le=10.0, nodes=400, rtol=1e-7):
+def coefficient(ell: float, closure: str) -> float:
+    """The coefficient of F: 16 as printed, else from Phi_2 = alpha s^2 + gamma ln s + c.
+
+    That is one on both edges, and zero on the midline or in the mean over the section.
+    """
+    if closure == "printed":
+        return 16.0
+    s, weight = np.array([(1 + ell) / 2]), np.ones(1)
+    if closure == "balanced":
+        s, weight = np.polynomial.legendre.leggauss(60)
+        s = (1 + ell + (1 - ell) * s) / 2
+        weight = weight * s / (1 + ell)  # of Integral s ds, over (1 - ell^2)/2
+    columns = np.array([s**2, np.log(s), np.ones_like(s)]) @ weight
+    edges = [[ell**2, np.log(ell), 1.0], [1.0, 0.0, 1.0]]
+    alpha = np.linalg.solve([*edges, columns], [1.0, 1.0, 0.0])[0]
+    return 4 * (1 - ell) ** 2 * alpha
+
+
+def surface(Phi, side, M, closure: str):
+    """Phi on the edges: Phi_0, or the root x^3 of x^3 + p x = q that bears no force."""
+    if closure != "balanced" or M == 0:
+        return side[1]
+    p = 4 * M / side[0]
+    q = side[1] + p * np.cbrt(Phi)
+    root = 2 * np.sqrt(p / 3) * np.sinh(np.arcsinh(1.5 * q / p * np.sqrt(3 / p)) / 3)
+    return root**3
+
+
+def solve(
+    tau,
+    ell,
+    eps=0.1,
+    M=1.0,
+    Pi_ratio=1.0,
+    Phi_inf=2.0,
+    Le=10.0,
+    nodes=400,
+    rtol=1e-7,
+    closure="printed",
+):
     """Z and Phi_1 at the `tau`, shape (tau, 2 nodes + 1); the front is in column `nodes`."""
     from sksundae.ida import IDA
 
     n = nodes
-    w = eps * (1 - ell) / 4
+    conserves = closure != "printed"
+    w = eps * (1 - ell) / np.sqrt(coefficient(ell, closure))
     s = np.arange(n + 1) / n
     hot = np.array([Pi_ratio / Phi_inf, Phi_inf])
     cold = np.array([1.0, 1.0])
@@ -57,7 +103,8 @@ def solve(tau, ell, eps=0.1, M=1.0, Pi_ratio=1.0, Phi_inf=2.0, Le=10.0, nodes=40
         return side[0] * Phi + 4 * M / 3 * np.cbrt(Phi)
 
     def source(Phi, side):
-        return Phi ** (2 / 3) * diffusivity(Phi, side) * (side[1] - Phi) / w**2
+        drive = surface(Phi, side, M, closure) - Phi
+        return Phi ** (2 / 3) * diffusivity(Phi, side) * drive / w**2
 
     def residual(log_tau, y, y_rate, res):
         t = np.exp(log_tau)
@@ -75,7 +122,7 @@ def solve(tau, ell, eps=0.1, M=1.0, Pi_ratio=1.0, Phi_inf=2.0, Le=10.0, nodes=40
         balance = np.zeros_like(Phi)
         balance[0] = F[0] + 2 * flux[0] / dZ[0]
         slope = (Phi[2:] - Phi[:-2]) / (Z[2:] - Z[:-2])
-        speed = 2 / 3 * (D / Phi)[1:-1] * slope - inflow[1:-1] / 3
+        speed = (4 if conserves else 2) / 3 * (D / Phi)[1:-1] * slope - inflow[1:-1] / 3
         balance[1:-1] = F[1:-1] + 2 * np.diff(flux) / (Z[2:] - Z[:-2]) - speed * slope
         rate = t * balance
         rate[1:-1] += Z_rate[1:-1] * slope
@@ -89,6 +136,8 @@ def solve(tau, ell, eps=0.1, M=1.0, Pi_ratio=1.0, Phi_inf=2.0, Le=10.0, nodes=40
 
         g_hot, g_cold = F_hot / Phi[: n + 1], F_cold / Phi[n:]
         gain = np.r_[g_hot[1:] + g_hot[:-1], g_cold[1:] + g_cold[:-1]] / 2 * dZ
+        if conserves:
+            gain -= 2 / 3 * flux * np.diff(Phi) / middle**2
         res[1] = inflow[0]
         res[3::2] = w * (np.diff(inflow) - gain)
 
@@ -119,7 +168,9 @@ def solve(tau, ell, eps=0.1, M=1.0, Pi_ratio=1.0, Phi_inf=2.0, Le=10.0, nodes=40
     return np.array([grid(t)[0] for t in tau]), Phi
 
 
-def observed(gel, tube: Mapping, ell, tau, nodes: int, rtol: float) -> "xr.Dataset":
+def observed(
+    gel, tube: Mapping, ell, tau, nodes: int, rtol: float, closure: str = "printed"
+) -> "xr.Dataset":
     """Phi_1 of the tubes ``ell`` at the times ``tau``, with its uncertainty.
 
     There are ``nodes`` intervals on either side of the front, an even number.  The uncertainty
@@ -135,6 +186,7 @@ def observed(gel, tube: Mapping, ell, tau, nodes: int, rtol: float) -> "xr.Datas
         "M": gel.M,
         "Pi_ratio": gel.Pi_ratio,
         "Phi_inf": gel.Phi_inf,
+        "closure": closure,
     }
     if nodes % 2:
         raise ValueError(f"nodes = {nodes}: must be even")

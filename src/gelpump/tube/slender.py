@@ -55,6 +55,16 @@ uniform. Each step is a Newton iteration: FiPy solves for the correction of lamb
 once with the exact Jacobian at fixed X_C, and X_C follows from Z(X_C) = Z_C, which makes the
 remaining error about ten times smaller with each sweep. Extrapolation of all unknowns from the
 steps before is good enough that one or two sweeps suffice.
+
+Closures (`gelpump.tube.closure`). What is told above is the printed equation, which conserves the
+length lambda dX. The others conserve the water of the wall, whose volume is lambda^3 dX:
+
+    (lambda^3)_tau = 3 (lambda^2 K lambda_X)_X - 3 lambda^2 S ,
+
+solved in the same way with lambda^3 V in place of lambda V and the potential of 3 lambda^2 K in
+place of k. They go on sweeping at a fixed X_C, where the Jacobian is exact, until the sum over the
+cells, and with it the water, is conserved to rounding; what crosses front, edges and sections is
+kept in books (`gelpump.tube.ledger`).
 """
 
 import warnings
@@ -62,17 +72,21 @@ import warnings
 import numpy as np
 import xarray as xr
 
-from gelpump.bdf import MAX_TRIALS, NotConverged, Step, integrate, interpolation_weights
+from gelpump.bdf import MAX_TRIALS, NotConverged, Step, integrate
 from gelpump.finite_volume import DriftSweep
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
+from gelpump.tube.closure import Printed, named
 from gelpump.tube.heat import Heat
+from gelpump.tube.ledger import AMOUNT, AMOUNT_RATE, ENTRIES, Ledger, Length
 from gelpump.tube.tubes import Tubes
 
 GRADING_BEHIND = 0.5  # in units of w: where the cells behind the front begin to grow
 GRADING_AHEAD = 4.0  # last cell ahead is about cosh(4) = 27 times the first
 NEWTON_SHARE = 0.1  # of the tolerance that the Newton iteration may leave
 MAX_SWEEPS = 8
+CONSERVED = 1e-13  # of the content that a step may leave unaccounted for
+PRINTED = Printed()
 DEPARTED = 0.1  # of Phi_inf - 1: nearer to Phi_0 than this counts as relaxed
 
 
@@ -87,6 +101,8 @@ def solve(
     reach: float = 12.0,
     newton_share: float = NEWTON_SHARE,
     trials: int = MAX_TRIALS,
+    closure: str = "printed",
+    books: bool = False,
 ) -> xr.Dataset:
     """Phi_1 of all `tubes` at the times `tau`, on cells behind and ahead of the front.
 
@@ -96,17 +112,18 @@ def solve(
     hundreds; above, `Family.limit` costs accuracy and more cells behind the front are needed.
     `newton_share` of the tolerance may be left by Newton's iteration: where Phi_inf is large, what
     a tenth leaves can stall the choice of the next step. After `trials` steps RuntimeError is
-    raised. The Lewis number of `heat` may be a column, (tubes, 1).
+    raised. The Lewis number of `heat` may be a column, (tubes, 1). `closure` is one of
+    `gelpump.tube.closure`. `books` are those of `gelpump.tube.ledger`; where water is conserved
+    they are kept in any case.
     """
     tau = np.atleast_1d(np.asarray(tau, float))
     if not (tau[0] > 0 and (np.diff(tau) > 0).all() and np.isfinite(tau).all()):
         raise ValueError(f"tau = {tau} is not allowed: positive and increasing")
     if np.any(heat.front(0.0)) or not (np.diff(heat.front(tau), prepend=0.0) > 0).all():
         raise ValueError("heat.front is not allowed: it must start at Z = 0 and move ahead")
-    family = Family(tubes, heat, cells, reach, newton_share * tolerance)
+    family = Family(tubes, heat, cells, reach, newton_share * tolerance, named(closure))
+    account = (Ledger if books or family.closure.conserves_water else Length)(family, order)
     times = np.sqrt(tau)
-    lost = np.zeros(family.tubes)
-    rates = [lost]
     found, steps = [], 0
     for step in integrate(
         family.advance,
@@ -119,11 +136,10 @@ def solve(
         trials=trials,
     ):
         steps += 1
-        rates = [family.loss_rate(step), *rates[:order]]
+        account.enter(step)
         while len(found) < len(times) and times[len(found)] <= step.time:
             t = times[len(found)]
-            found.append(family.profile(t, step, lost + _integral(step, rates, t)))
-        lost = lost + _integral(step, rates, step.time)
+            found.append(family.profile(t, step) | account.at(t, step))
     dataset = _dataset(tubes, tau, heat, family, found)
     dataset.attrs.update(
         steps=steps,
@@ -134,6 +150,8 @@ def solve(
         order=order,
         reach=reach,
     )
+    if isinstance(account, Ledger):
+        dataset.attrs.update(closure=closure, water_balance_step=account.worst)
     _report_range(dataset, tolerance)
     return dataset
 
@@ -144,10 +162,11 @@ class Family:
     Public for the studies of known solutions, which give it sources and starts of their own.
     """
 
-    def __init__(self, tubes, heat, cells, reach, newton_tolerance):
+    def __init__(self, tubes, heat, cells, reach, newton_tolerance, closure=PRINTED):
         self.behind, ahead = cells
         self.cells = self.behind + ahead
-        columns = (tubes.wall_length, tubes.M, tubes.Pi_ratio, tubes.Phi_inf)
+        self.closure = closure
+        columns = (closure.wall_length(tubes), tubes.M, tubes.Pi_ratio, tubes.Phi_inf)
         self.w, self.M, Pi_ratio, Phi_inf = (np.reshape(c, (-1, 1)) for c in columns)
         self.tubes = len(self.w)
         self.heat, self.reach, self.newton_tolerance = heat, reach, newton_tolerance
@@ -162,7 +181,7 @@ class Family:
         self.sweep = DriftSweep(self.tubes * self.cells)
 
     # The state of bdf: lambda (for its prediction and its error), and the two quantities whose
-    # rates of change enter, lambda V and the faces X_f.
+    # rates of change enter, the content, lambda V or lambda^3 V, and the faces X_f.
 
     def initial(self):
         """The state at t = 0, undisturbed."""
@@ -170,11 +189,12 @@ class Family:
         return self.pack(np.ones(shape), np.zeros((self.tubes, self.cells + 1)))
 
     def pack(self, stretch, X):
-        """The state: lambda, lambda V and X_f in one row."""
-        return np.concatenate([a.ravel() for a in (stretch, stretch * np.diff(X), X)])
+        """The state: lambda, the content of the cells and X_f in one row."""
+        content = self.closure.content(stretch) * np.diff(X)
+        return np.concatenate([a.ravel() for a in (stretch, content, X)])
 
     def unpack(self, state):
-        """Lambda, lambda V and X_f of a state, each (tube, ...)."""
+        """Lambda, the content and X_f of a state, each (tube, ...)."""
         parts = np.split(state, [self.tubes * self.cells, 2 * self.tubes * self.cells])
         return [part.reshape(self.tubes, -1) for part in parts]
 
@@ -190,20 +210,18 @@ class Family:
         return np.hstack([X_behind, X_C + self.reach * layer * self._fore])
 
     def source(self, stretch):
-        """w^2 S and its derivative."""
-        resistance = self.s / stretch + 4 * self.M / 3 * stretch
-        drive = self.Phi_0 - stretch**-3.0
-        slope = (4 * self.M / 3 - self.s / stretch**2) * drive + 3 * resistance / stretch**4
-        return resistance * drive / 3, slope / 3
+        """w^2 times what the content loses through the edges (printed: S), and its derivative."""
+        return self.closure.source(stretch, self.s, self.Phi_0, self.M)
 
     def _k(self, stretch, s):
-        return -s / 4 * stretch**-4.0 - 2 * self.M / 3 * stretch**-2.0
+        return self.closure.potential(stretch, s, self.M)
 
     def _K(self, stretch, s):
-        return s * stretch**-5.0 + 4 * self.M / 3 * stretch**-3.0
+        return self.closure.conductivity(stretch, s, self.M)
 
     def inner_faces(self, stretch, X):
-        """Flux K lambda_X and lambda at the faces within a tube, each with its two derivatives.
+        """Flux of the content (printed: K lambda_X) and lambda at the faces within a tube, each
+        with its two derivatives.
 
         Returns flux, (d flux/d left, d flux/d right), lambda, (d lambda/d left, d lambda/d right).
         """
@@ -237,6 +255,14 @@ class Family:
         flux_right[:, c] = g[1] * G[0] / (G[0] + G[1])
         return flux, (flux_left, flux_right), face, (face_left, face_right)
 
+    def exchange(self, stretch, X, velocity, rate):
+        """`inner_faces` with lambda as it is carried by the faces' velocity, and d content/d lambda
+        there."""
+        flux, flux_slope, face, face_slope = self.inner_faces(stretch, X)
+        carried = velocity * self.closure.content_slope(face)
+        self.limit(stretch, carried, rate, flux_slope, face, face_slope)
+        return flux, flux_slope, face, face_slope, self.closure.content_slope(face)
+
     def limit(self, stretch, velocity, rate, flux_slope, face, face_slope):
         """Take no more of lambda from the downwind cell than diffusion brings back.
 
@@ -257,22 +283,25 @@ class Family:
         Z_C = self.front(t)
         X_C = X[:, self.behind, None] if X.any() else Z_C  # nothing to extrapolate at first
         rate = 2 * t / self.w**2  # dtau/dt in units of w^2
-        previous = None
+        previous, settled = None, False
         for _ in range(MAX_SWEEPS):
             X = self.faces(t, X_C)
             V = np.diff(X)
             velocity = alpha * X + X_history
-            flux, flux_slope, face, face_slope = self.inner_faces(stretch, X)
-            S, S_slope = self.source(stretch)
             inner, end = velocity[:, 1:-1], velocity[:, -1:]
-            self.limit(stretch, inner, rate, flux_slope, face, face_slope)
+            flux, flux_slope, face, face_slope, carried = self.exchange(stretch, X, inner, rate)
+            S, S_slope = self.source(stretch)
             # what the last face sweeps in is undisturbed: lambda = 1
-            through = np.hstack([np.zeros_like(end), rate * flux + inner * face, end])
-            residual = alpha * stretch * V + content_history - np.diff(through) + rate * V * S
+            at_faces = rate * flux + inner * self.closure.content(face)
+            through = np.hstack([np.zeros_like(end), at_faces, end])
+            content = alpha * self.closure.content(stretch) * V
+            residual = content + content_history - np.diff(through) + rate * V * S
+            if settled and self.conserves(residual, content + rate * V * np.abs(S)):
+                return self.pack(stretch, X)
             from_left, from_right = (
-                rate * f + inner * e for f, e in zip(flux_slope, face_slope, strict=True)
+                rate * f + inner * carried * e for f, e in zip(flux_slope, face_slope, strict=True)
             )
-            reaction = V * (alpha + rate * S_slope)
+            reaction = V * (alpha * self.closure.content_slope(stretch) + rate * S_slope)
             correction = self.sweep.correction(
                 _on_faces((from_right - from_left) / 2),
                 reaction.ravel(),
@@ -282,6 +311,8 @@ class Family:
             stretch = stretch + correction
             if not (stretch > 0.1 * stretch.max()).all():
                 raise NotConverged
+            if settled:
+                continue
             shift = (Z_C - (stretch * V)[:, self.hot].sum(axis=1, keepdims=True)) / face[
                 :, self.behind - 1, None
             ]
@@ -290,11 +321,18 @@ class Family:
             if previous is not None:
                 self.contraction = np.clip(change / previous, 0.05, 1.0)
             if change * self.contraction < self.newton_tolerance:
-                return self.pack(stretch, self.faces(t, X_C))
-            if previous is not None and change > 2 * previous:
+                if not self.closure.conserves_water:
+                    return self.pack(stretch, self.faces(t, X_C))
+                settled = True
+            elif previous is not None and change > 2 * previous:
                 break
             previous = change
         raise NotConverged
+
+    def conserves(self, residual, turnover):
+        """Whether the sums over the cells behind and ahead of the front vanish to rounding."""
+        sums = [residual[:, side].sum(axis=1) for side in (self.hot, ~self.hot)]
+        return (np.abs(sums) <= CONSERVED * turnover.sum(axis=1)).all()
 
     def error_norm(self, state, difference):
         """As a change of Phi_1; a shift of X_C by w changes it by a tenth at fixed Z."""
@@ -304,29 +342,25 @@ class Family:
             np.abs(3 * d_stretch / stretch**4).max(), 0.1 * np.abs(d_X[:, self.behind]).max()
         )
 
-    def loss_rate(self, step: Step):
-        """Rate in t at which water leaving through the walls shortens the tubes, in units of w."""
-        stretch, _, X = self.unpack(step.solution)
-        return (2 * step.time / self.w**2 * self.source(stretch)[0] * np.diff(X)).sum(axis=1)
-
-    def profile(self, t, step: Step, lost):
-        """What the dataset holds of one time; `lost` is the integral of `loss_rate`."""
-        stretch, _, X = self.unpack(step.at(t))
+    def profile(self, t, step: Step):
+        """What the dataset holds of one time, but for the account of what was lost."""
+        stretch, content, X = self.unpack(step.at(t))
+        if self.closure.conserves_water:
+            stretch = np.cbrt(content / np.diff(X))
         V, Phi = np.diff(X), stretch**-3.0
         flux, _, face, _ = self.inner_faces(stretch, X)
         Z_face = self.w * np.hstack([np.zeros_like(V[:, :1]), np.cumsum(stretch * V, axis=1)])
-        shortening = ((1 - stretch) * V).sum(axis=1)
         Z, front = (Z_face[:, 1:] + Z_face[:, :-1]) / 2, Z_face[:, self.behind, None]
         Phi_front = face[:, self.behind - 1, None] ** -3.0
+        per_stretch, at_faces = (self.closure.content_slope(each) for each in (stretch, face))
         return {
             "Phi1": Phi,
             "Z": Z,
-            "F": 3 * self.source(stretch)[0] / stretch**4 / self.w**2,
+            "F": 3 * self.source(stretch)[0] / per_stretch / stretch**4 / self.w**2,
             "Z_face": Z_face,
-            "flux": np.pad(-3 * flux * face**-3.0 / self.w, ((0, 0), (1, 1))),
+            "flux": np.pad(-3 * flux / at_faces * face**-3.0 / self.w, ((0, 0), (1, 1))),
             "Phi1_front": Phi_front[:, 0],
             "front_error": np.abs(front - self.w * self.front(t))[:, 0],
-            "water_balance_error": np.abs(shortening - lost) / self.front(t)[:, 0],
             "departed_length": self.departed_length(Z, Phi, front, Phi_front),
         }
 
@@ -349,17 +383,6 @@ class Family:
             )
             length += (np.diff(position) * share).sum(axis=1)
         return length + Z[:, 0] * (excess[:, 0] > 0)  # from the closed end to the first middle
-
-
-def _integral(step, rates, end):
-    """From the start of the step to `end`, of the polynomial through the rates at step.times."""
-    nodes, weights = np.polynomial.legendre.leggauss(3)
-    half = (end - step.start) / 2
-    at_nodes = [
-        interpolation_weights(step.times, step.start + half * (1 + node)) @ np.array(rates)
-        for node in nodes
-    ]
-    return half * weights @ at_nodes
 
 
 def _on_faces(inner):
@@ -405,6 +428,19 @@ def _dataset(tubes, tau, heat, family, found):
     dims = ("ell", "tau")[-Z_C.ndim :]
     data["Z_C"] = variable(dims, Z_C, "position of the front", scaling.AXIAL)
     data["hot"] = variable("cell", family.hot, "whether the cell is behind the front")
+    if family.closure.conserves_water:
+        data["wall_length"] = variable(
+            "ell",
+            family.w[:, 0],
+            "length over which radial flow heals a disturbance",
+            scaling.AXIAL,
+        )
+    for name in (each for each in ENTRIES if each in found[0]):
+        dim, text = ENTRIES[name]
+        for suffix, what, unit in (("", "", AMOUNT), ("_rate", "rate of: ", AMOUNT_RATE)):
+            values = np.stack([each[f"{name}{suffix}"] for each in found], axis=1)
+            dims = ("ell", "tau", *filter(None, [dim]))
+            data[f"{name}{suffix}"] = variable(dims, values, f"{what}{text}", unit)
     for key, text in PARAMETERS.items():
         data[key] = variable("ell", np.ravel(getattr(tubes, key)), text)
     return xr.Dataset(

@@ -45,6 +45,17 @@ def source_coefficient(ell):
     return 4 * (1 - ell) ** 2 * _alpha(ell)
 
 
+def mean_source_coefficient(ell):
+    """The counterpart of kappa for the mean over the section in place of the midline: 12, thin.
+
+    On both edges Phi_2 is `drive` above its mean. With (R^2, ln R, 1) and <s^2> = (1+ell^2)/2,
+    <ln s> = -1/2 - ell^2 ln(ell)/(1-ell^2) it is again alpha = kappa/(4 (1-ell)^2).
+    """
+    square = (1 - ell**2) / 2
+    log = (1 - ell**2) / np.log(1 / ell) * (0.5 + ell**2 * np.log(ell) / (1 - ell**2))
+    return 4 * (1 - ell) ** 2 / (square - log)
+
+
 def lumen_share(ell):
     """Part of the water shed by the radial source that enters the lumen; the rest goes outwards."""
     return (1 / np.log(1 / ell) - 2 * ell**2 / (1 - ell**2)) / 2

@@ -43,6 +43,7 @@ LINEAR = "src/gelpump/materials/piecewise_linear.py"
 LENS = "src/gelpump/bead/lens.py"
 NONLINEAR = "src/gelpump/bead/nonlinear.py"
 SLENDER = "src/gelpump/tube/slender.py"
+CLOSURE = "src/gelpump/tube/closure.py"
 PAPER = "config/config.yaml"
 TEST_GEL = "tests/materials/test_energy_based.py"
 TEST_LENS = (
@@ -182,9 +183,9 @@ MUTANTS = (
     ),
     Mutant(
         "wrong factor in the tube's source",
-        SLENDER,
-        "resistance = self.s / stretch + 4 * self.M / 3 * stretch",
-        "resistance = self.s / stretch + 2 * self.M / 3 * stretch",
+        CLOSURE,
+        "resistance = s / stretch + 4 * M / 3 * stretch",
+        "resistance = s / stretch + 2 * M / 3 * stretch",
         TEST_SLENDER,
     ),
     Mutant(
@@ -196,17 +197,38 @@ MUTANTS = (
     ),
     Mutant(
         "wrong exponent in the tube's Jacobian",
-        SLENDER,
+        CLOSURE,
         "return s * stretch**-5.0 +",
         "return s * stretch**-4.0 +",
         "tests/tube/test_slender.py -k slopes",
     ),
     Mutant(
         "wrong exponent of the tube's flux",
-        SLENDER,
+        CLOSURE,
         "return -s / 4 * stretch**-4.0 -",
         "return -s / 4 * stretch**-3.0 -",
         "tests/tube/test_slender.py -k slopes",
+    ),
+    Mutant(
+        "a wall that leaks through its slopes",
+        CLOSURE,
+        "return -1.5 * s / stretch**2 + 4 * M * np.log(stretch)",
+        "return -1.5 * s / stretch**2 + 3 * M * np.log(stretch)",
+        "tests/tube/test_closure.py -k slopes",
+    ),
+    Mutant(
+        "a surface that bears a force",
+        CLOSURE,
+        "4 * M * (x - 1 / stretch)",
+        "3 * M * (x - 1 / stretch)",
+        "tests/tube/test_closure.py -k force",
+    ),
+    Mutant(
+        "books that miss what the front sweeps",
+        "src/gelpump/tube/ledger.py",
+        "velocity[:, family.behind] * (1 - at_front**3)",
+        "velocity[:, family.behind] * (1 - at_front**2)",
+        "tests/tube/test_closure.py -k conserved_over",
     ),
     Mutant(
         "front at the wrong temperature",

@@ -179,7 +179,7 @@ class ForcedFamily(slender.Family):
         return X
 
     def source(self, stretch):
-        """w^2 (S + lambda^4 H/3), or what the content loses by it, and its derivative; H is held."""
+        """w^2 (S + lambda^4 H/3), or what the content loses by it; and its derivative."""
         S, slope = super().source(stretch)
         forcing = self.problem.w**2 * self.forcing * self.closure.content_slope(stretch)
         if self.closure.conserves_water:

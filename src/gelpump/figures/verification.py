@@ -17,6 +17,8 @@ COLOURS = {
     "relaxing bead": style.SEPARATING,
     "manufactured tube": style.NONLINEAR,
     "relaxing tube": style.DRYING,
+    "manufactured tube, conservative": "#56B4E9",
+    "resting front, conservative": "#CC79A7",
 }
 MARKERS = ("o", "s", "^")
 NAMES = {
@@ -28,7 +30,7 @@ NAMES = {
 
 def draw(studies: Sequence[Mapping[str, Any]]) -> Figure:
     """(a) Error against cells, (b) against steps; ``studies`` as in verification.json."""
-    fig = style.figure(height=3.6)
+    fig = style.figure(height=4.2)
     for axes, letter, (against, (label, slope, ticks)) in zip(
         fig.subplots(1, 2, sharey=True), "ab", PANELS.items(), strict=True
     ):

@@ -27,15 +27,24 @@ def require_plain(path: str | Path) -> None:
     Snakemake's own loader takes the last of several equal keys, runs Python in templates
     (``__use_yte__``), and follows aliases however large they make the whole.  Raises ConfigError.
     """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, ValueError) as problem:
+        raise ConfigError(f"{path}: cannot be read: {problem}") from problem
+    require_plain_text(text, str(path))
+
+
+def require_plain_text(text: str, where: str) -> Any:
+    """The value of a YAML text, refused as by `require_plain` if it is not plain."""
     import yaml
 
     try:
-        with open(path, encoding="utf-8") as stream:
-            root = yaml.compose(stream, Loader=yaml.SafeLoader)
-    except (OSError, ValueError, yaml.YAMLError, RecursionError) as problem:
-        raise ConfigError(f"{path}: cannot be read: {problem}") from problem
+        root = yaml.compose(text, Loader=yaml.SafeLoader)
+    except (ValueError, yaml.YAMLError, RecursionError) as problem:
+        raise ConfigError(f"{where}: cannot be read: {problem}") from problem
     if root is not None:
-        _refuse(f"{path}: {problem}" for problem in _node_problems(root))
+        _refuse(f"{where}: {problem}" for problem in _node_problems(root))
+    return yaml.safe_load(text)
 
 
 def require_plain_arguments(arguments: Sequence[str] | None = None) -> None:

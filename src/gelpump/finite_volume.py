@@ -29,7 +29,6 @@ skips a solve whose right-hand side looks small, so a direct one is named; and a
 installed solver package would take over, so SciPy's is pinned before FiPy is first imported.
 """
 
-import os
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -40,10 +39,13 @@ from typing import Any
 
 import numpy as np
 
+from gelpump import plain_fipy
+
 
 @cache
 def _tridiagonal():
     """FiPy's solver and terms for tridiagonal systems; FiPy is imported only when needed."""
+    plain_fipy.load()
     from fipy import (
         CellVariable,
         CentralDifferenceConvectionTerm,
@@ -129,9 +131,7 @@ class _System:
     """FiPy's equation for the correction, on one mesh of unit cells."""
 
     def __init__(self, cells: int, drifts: bool):
-        os.environ["FIPY_SOLVERS"] = "scipy"
-        import fipy
-
+        fipy = plain_fipy.load()
         terms = _tridiagonal()
         mesh = fipy.Grid1D(nx=cells, dx=1.0)
         self._solver = terms.solver

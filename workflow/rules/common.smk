@@ -3,10 +3,23 @@ import json
 from pathlib import Path
 from types import SimpleNamespace
 
+import gelpump
 import yaml
 
+PACKAGE = Path(workflow.basedir).resolve() / "src/gelpump"
+if Path(gelpump.__file__).resolve().parent != PACKAGE:
+    raise WorkflowError(
+        f"gelpump would be imported from {Path(gelpump.__file__).resolve().parent}, which is not"
+        f" the code of this folder ({PACKAGE}), so its jobs would run another folder's models."
+        " Use an environment of this folder's own (.venv/bin/snakemake, after"
+        " python3 -m venv .venv && .venv/bin/pip install -r requirements.txt), and unset"
+        " PYTHONPATH if it names another folder."
+    )
+
 from gelpump import config as checked
-from gelpump import imports, provenance
+from gelpump import imports, launch, provenance
+
+launch.settle()
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as stream:
     schema = yaml.safe_load(stream)
@@ -30,6 +43,11 @@ def fitted_gels():
     except ValueError as refusal:
         raise checked.ConfigError(f"the configuration is refused:\n  gels.{refusal}")
 
+
+try:
+    launch.complete(workflow, config)
+except checked.ConfigError as refusal:
+    raise WorkflowError(str(refusal))
 
 if workflow.is_main_process:
     try:

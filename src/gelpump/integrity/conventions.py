@@ -5,10 +5,16 @@ flags, which are not quantities.
 """
 
 from collections.abc import Iterable, Iterator
+from importlib.util import find_spec
 
 from gelpump.integrity.problem import Problem
 
 CHECKER = "cf:1.11"
+
+
+def checker_installed() -> bool:
+    """Whether there is a checker: not every platform can have one, and a build needs none."""
+    return find_spec("compliance_checker") is not None
 
 
 def problems(paths: Iterable[str]) -> list[Problem]:

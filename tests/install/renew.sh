@@ -14,7 +14,7 @@ pins() { # extras...
     -c "$scratch/kept.txt" "${hashes[@]}" | grep -v "sys_platform == 'win32'$"
 }
 hashes=()
-pins workflow design sweep report truth > "$scratch/rebuild.txt"
+pins workflow design sweep report > "$scratch/rebuild.txt"
 pins dev > "$scratch/all.txt"
 {
   echo "# What a rebuild needs, pinned, transitive packages too (Python 3.11 to 3.14)."
@@ -31,5 +31,5 @@ hashes=(--generate-hashes)
 cp "$scratch/rebuild.txt" "$scratch/kept.txt"
 {
   echo "# pip install --require-hashes -r requirements.lock && pip install --no-deps -e ."
-  pins workflow design sweep report truth
+  pins workflow design sweep report
 } > requirements.lock

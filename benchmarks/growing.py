@@ -14,7 +14,6 @@ from benchmarks.measure import forked, growth
 from benchmarks.problems import Bead, Tubes
 from benchmarks.settings import PROJECT, paper
 from gelpump.bead import lens
-from gelpump.finite_volume import together
 
 IMPORTS = {
     "interpreter": "pass",
@@ -103,13 +102,6 @@ def series() -> list[dict]:
             "nothing is shared: in proportion from the first case on",
             [1, 2, 4, 8],
             lambda n: [tools.our_bead(swelling, 24, 1e-3) for _ in range(n)],
-        ),
-        _series(
-            "bead cases that share sweeps",
-            "cases",
-            "a sweep serves all, so that a case adds its cells and what is done between sweeps",
-            [1, 2, 4, 8],
-            lambda n: together(*[lambda: tools.our_bead(swelling, 24, 1e-3)] * n),
         ),
         _series(
             "Snakemake jobs that do nothing",

@@ -383,6 +383,12 @@ this problem at this error. For beads and tubes: CPU seconds at an error of {TAR
 as above, the lesser of two runs; for what is around them, of what is named.
 
 {levers_table(measured["levers"])}
+Two more were measured in one run when they were left out or put aside (November 2026, 2 cores, CPU
+seconds with others at work). Runs of their own time steps could once meet in threads to share a
+FiPy sweep: refinement of the beads and tubes and all known solutions took 8.9 s with that, 12.2 s
+without, of 138 s of a rebuild; it is gone. FiPy's public terms alone, without
+`gelpump.tridiagonal`, take 43 s instead of 11 s for all beads and tubes of the paper.
+
 ## A rebuild
 
 {rebuild_tables(measured["rebuild"], measured["profile"])}

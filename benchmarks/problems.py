@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from gelpump.config import initial_polymer_fraction
+from gelpump.bead.production import initial_polymer_fraction
 from gelpump.materials import from_config
 
 

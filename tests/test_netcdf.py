@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 
 from gelpump import netcdf
+from gelpump.files import whole
 from gelpump.text import write_text
 
 
@@ -28,7 +29,7 @@ def test_a_number_that_is_not_finite_is_refused(tmp_path, value):
 
 def test_a_file_has_its_name_only_when_it_is_whole(tmp_path):
     file = tmp_path / "x.txt"
-    with netcdf.whole(file) as partial:
+    with whole(file) as partial:
         partial.write_text("half")
         assert not file.exists()
         partial.write_text("all of it")
@@ -36,7 +37,7 @@ def test_a_file_has_its_name_only_when_it_is_whole(tmp_path):
 
 
 def fail_half_way(file):
-    with netcdf.whole(file) as partial:
+    with whole(file) as partial:
         partial.write_text("half")
         raise RuntimeError("disk full")
 

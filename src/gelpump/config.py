@@ -184,6 +184,8 @@ def _physical_problems(config) -> Iterator[str]:
 
 
 def _bead_problems(key, block, gels, blocks) -> Iterator[str]:
+    from gelpump.bead.production import initial_polymer_fraction
+
     energy_based = sorted(n for n, b in blocks.items() if b["model"] == "energy-based")
     name = block["gel"]
     if name not in energy_based:
@@ -310,20 +312,6 @@ def _published_problems(config) -> Iterator[str]:
                     f"published.{claim}.value = {values}: must have one value for each of "
                     f"beads.{case}.published_times = {times}"
                 )
-
-
-def initial_polymer_fraction(gel, case: Mapping[str, Any]) -> float:
-    """phi_initial of a bead's config block: as given, or in equilibrium at temperature_initial.
-
-    Raises ValueError when there is no such equilibrium, or when no surface is stress-free at the
-    final temperature.
-    """
-    if "phi_initial" not in case:
-        return gel.equilibrium_polymer_fraction(case["temperature_initial"], case["branch"])
-    phi, T = case["phi_initial"], case["temperature_final"]
-    if not gel.diffusivity(phi, T) > 0.0:
-        raise ValueError(f"phi_initial = {phi}: D < 0 at {T} K, phases separate at once")
-    return phi
 
 
 def main(paths: Iterable[str]) -> None:

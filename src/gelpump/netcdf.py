@@ -1,16 +1,14 @@
 """Datasets on disk: netCDF-4 after CF-1.11, whole or not there, byte-identical from run to run."""
 
 import json
-import os
-import shutil
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 import gelpump
+from gelpump.files import whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -71,29 +69,6 @@ def write(
         encoding[name]["_FillValue"] = None
     with whole(path) as partial:
         dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4", encoding=encoding)
-
-
-@contextmanager
-def whole(path: str | Path) -> Iterator[Path]:
-    """Another name to write the file ``path`` under; it gets its own when all is on the disk.
-
-    What a killed run has left under that name goes first.  OSError, with the path and the space
-    left, if the file cannot be written.
-    """
-    path = Path(path)
-    partial = path.with_name(f".{path.name}.partial")
-    try:
-        partial.unlink(missing_ok=True)
-        yield partial
-        with partial.open("rb") as stream:
-            os.fsync(stream.fileno())
-        partial.replace(path)
-    except (OSError, RuntimeError) as refusal:  # RuntimeError: how netCDF-4 tells of a full disk
-        free = shutil.disk_usage(path.parent).free // 1024
-        raise OSError(f"{path} was not written ({free} kB are free): {refusal}") from refusal
-    finally:
-        with suppress(OSError):  # on a disk that has become read-only
-            partial.unlink(missing_ok=True)
 
 
 def _require_finite(dataset, title, flag):

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from gelpump.netcdf import whole
+from gelpump.files import whole
 
 
 def write_text(text: str, path: str | Path) -> None:

@@ -99,7 +99,7 @@ def test_without_being_asked_a_process_is_left_alone(tmp_path):
         (
             [
                 f"{PACKAGES}/fipy/terms/term.py:sweep",
-                "/build/src/gelpump/finite_volume.py:_solve_",
+                "/build/src/gelpump/tridiagonal.py:_solve_",
                 f"{PACKAGES}/scipy/linalg/_basic.py:solve_banded",
             ],
             "linear solves",

@@ -303,8 +303,8 @@ MUTANTS = (
     Mutant(
         "sign of the residual",
         "src/gelpump/finite_volume.py",
-        "self._delta.setValue(-residual / reaction)",
-        "self._delta.setValue(residual / reaction)",
+        "== flow - self.G",
+        "== flow + self.G",
         "tests/test_finite_volume.py",
     ),
     Mutant(
@@ -358,7 +358,7 @@ MUTANTS = (
     ),
     Mutant(
         "a file that appears before it is whole",
-        "src/gelpump/netcdf.py",
+        "src/gelpump/files.py",
         "        yield partial\n",
         "        path.touch()\n        yield partial\n",
         "tests/test_netcdf.py",

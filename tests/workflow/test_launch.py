@@ -78,7 +78,8 @@ assert plain_fipy.load().solvers.solver_suite == "scipy"
 from fipy.tools.inline import doInline
 assert not doInline
 assert sys.argv[1:] == {switches!r}
-finite_volume._System(5, drifts=True)
+finite_volume.Equation(5, drifts=True)
+from gelpump import tridiagonal
 """
 SWITCHES = [[], ["--inline"], ["--petsc"], ["--Trilinos", "--inline"]]
 

@@ -4,11 +4,10 @@ from _helpers import job
 
 with job(snakemake) as provenance:
     from gelpump.figures import style, verification
-    from gelpump.finite_volume import together
     from gelpump.known_solutions import bead, table, tube
     from gelpump.text import write_json, write_text
 
-    studies = [study for each in together(bead.studies, tube.studies) for study in each]
+    studies = [*bead.studies(), *tube.studies()]
     print(table.markdown(studies))
     table.require_all(studies)
     records = [study.record() for study in studies]

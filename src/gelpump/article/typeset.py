@@ -6,7 +6,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from gelpump.netcdf import whole
+from gelpump.files import whole
 
 
 def typeset(told: Mapping[str, Any], drawings: Mapping[str, Path], path: str | Path) -> None:

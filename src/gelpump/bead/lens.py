@@ -258,7 +258,10 @@ def solve_meshes(
     tolerance: float,
     order: int = 3,
 ) -> list["xr.Dataset"]:
-    """The same bead on several meshes, which share every time step and sweep."""
+    """The same bead on several meshes, which share every time step and sweep.
+
+    Each mesh loses its phases at a time of its own; if one does, each mesh is solved by itself.
+    """
     shells = Shells(cells)
     start = shells.R**3 / phi_initial
     sweep = NewtonSweep(len(shells.R))
@@ -283,6 +286,9 @@ def solve_meshes(
                 kept_times.append(times[len(states)])
                 states.append(step.at(kept_times[-1]))
     except PhaseSeparation as separation:
+        if len(cells) > 1:
+            settings = {"tolerance": tolerance, "order": order}
+            return [solve(gel, temperature, phi_initial, times, n, **settings) for n in cells]
         loss = Loss(reached, separation.r, separation.phi, "D < 0, spinodal decomposition")
         if reached > kept_times[-1]:
             kept_times.append(reached)

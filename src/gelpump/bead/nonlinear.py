@@ -286,3 +286,16 @@ def solve(
         temperature=temperature,
         evaluations=evaluations,
     )
+
+
+def solve_meshes(
+    gel: Gel,
+    temperature: float,
+    phi_initial: float,
+    times: Sequence[float],
+    cells: Sequence[int],
+    *,
+    tolerance: float,
+) -> list[xr.Dataset]:
+    """The same bead on several meshes, one after the other."""
+    return [solve(gel, temperature, phi_initial, times, n, tolerance=tolerance) for n in cells]

@@ -1,15 +1,17 @@
 """Production and refinement runs of a bead case, and what is measured along each of them."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gelpump.config import initial_polymer_fraction
 from gelpump.uncertainty import convergence_index
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from gelpump.materials import Gel
 
 Meshes = tuple[Sequence[int], float]
 """Numbers of cells, and the time tolerance that runs with these have in common."""
@@ -37,6 +39,20 @@ def output_times(case: Mapping, count: int) -> np.ndarray:
     )
 
 
+def initial_polymer_fraction(gel: "Gel", case: Mapping[str, Any]) -> float:
+    """phi_initial of a bead's config block: as given, or in equilibrium at temperature_initial.
+
+    Raises ValueError when there is no such equilibrium, or when no surface is stress-free at the
+    final temperature.
+    """
+    if "phi_initial" not in case:
+        return gel.equilibrium_polymer_fraction(case["temperature_initial"], case["branch"])
+    phi, T = case["phi_initial"], case["temperature_final"]
+    if not gel.diffusivity(phi, T) > 0.0:
+        raise ValueError(f"phi_initial = {phi}: D < 0 at {T} K, phases separate at once")
+    return phi
+
+
 def start(gel, case: Mapping, numerics: Mapping) -> tuple[float, float, np.ndarray]:
     """Temperature after the jump, initial polymer fraction and output times of a case."""
     return (
@@ -44,6 +60,30 @@ def start(gel, case: Mapping, numerics: Mapping) -> tuple[float, float, np.ndarr
         initial_polymer_fraction(gel, case),
         output_times(case, numerics["output_times"]),
     )
+
+
+def run(
+    model: ModuleType, gel: "Gel", case: Mapping[str, Any], numerics: Mapping[str, Any]
+) -> tuple["xr.Dataset", "xr.Dataset"]:
+    """A bead of the configuration and its refinement, as `refined` gives them.
+
+    model: `gelpump.bead.lens` or `gelpump.bead.nonlinear`.  case: a block of ``beads`` of the
+    configuration (temperatures in K, times in t_BMJ).  numerics: ``cells``, ``tolerance`` and the
+    number of ``output_times``.
+    """
+    temperature, phi_initial, times = start(gel, case, numerics)
+
+    def runs(asked: Sequence[Meshes]) -> list["xr.Dataset"]:
+        made = []
+        for cells, tolerance in asked:
+            beads = model.solve_meshes(
+                gel, temperature, phi_initial, times, cells, tolerance=tolerance
+            )
+            print(cells, tolerance, beads[0].attrs)
+            made += [measured(bead, gel, temperature) for bead in beads]
+        return made
+
+    return refined(runs, numerics["cells"], numerics["tolerance"])
 
 
 def measured(bead: "xr.Dataset", gel, temperature: float) -> "xr.Dataset":

@@ -23,7 +23,7 @@ from matplotlib.colorbar import Colorbar
 from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap, to_hex
 from matplotlib.figure import Figure
 
-from gelpump.netcdf import whole
+from gelpump.files import whole
 
 if TYPE_CHECKING:
     from gelpump.provenance import Provenance

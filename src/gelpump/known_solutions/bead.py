@@ -19,7 +19,6 @@ displaced either way, share the sweeps: half their difference is free of terms i
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -27,7 +26,7 @@ from scipy.optimize import brentq
 
 from gelpump import bdf
 from gelpump.bead import lens
-from gelpump.finite_volume import NewtonSweep, together
+from gelpump.finite_volume import NewtonSweep
 from gelpump.known_solutions.study import Study, one_run, space, time
 from gelpump.materials import PiecewiseLinearGel
 
@@ -198,11 +197,9 @@ def swelling(gel, temperature: float, phi_initial: float) -> Study:
 def spreading() -> list[Study]:
     """Orders in space and in time on Barenblatt's solution."""
     name, meshes = "Barenblatt's bead", [20, 40, 80, 160]
-    (runs, _), (edge, _), *loose = together(
-        partial(barenblatt, meshes, 1e-8),
-        partial(barenblatt, meshes, 1e-5, inside=1.0),
-        *(partial(barenblatt, meshes[:1], tolerance) for tolerance in (1e-4, 1e-5, 1e-6)),
-    )
+    runs, _ = barenblatt(meshes, 1e-8)
+    edge, _ = barenblatt(meshes, 1e-5, inside=1.0)
+    loose = [barenblatt(meshes[:1], tolerance) for tolerance in (1e-4, 1e-5, 1e-6)]
     radius = [abs(r[-1] / exact[-1] - 1) for r, exact in runs]
     faces = [np.abs(r - exact).max() for r, exact in runs]
     up_to_edge = [np.abs(r - exact).max() for r, exact in edge]
@@ -219,16 +216,11 @@ def spreading() -> list[Study]:
 def studies() -> list[Study]:
     """All studies of the bead."""
     meshes = [20, 40, 80]
-    drop, rates, swollen, rest = together(
-        spreading,
-        partial(relaxation, GEL, SWOLLEN, meshes, 1e-9),
-        partial(swelling, GEL, SWOLLEN, 2.0),
-        partial(at_rest, GEL, SWOLLEN),
-    )
+    rates = relaxation(GEL, SWOLLEN, meshes, 1e-9)
     return [
         *shell_identities(80),
-        *drop,
+        *spreading(),
         space("relaxing bead", "rate of the slowest mode", meshes, rates, 2e-4),
-        swollen,
-        rest,
+        swelling(GEL, SWOLLEN, 2.0),
+        at_rest(GEL, SWOLLEN),
     ]

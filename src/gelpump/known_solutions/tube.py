@@ -36,14 +36,11 @@ Q_hot(lambda_f) - Q_hot(Phi_inf^{-1/3}) = Q_cold(lambda_f) - Q_cold(1) where, fo
 Nothing moves any more, so the wall sheds nothing, whatever it takes in ahead and gives off behind.
 """
 
-from functools import partial
-
 import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from gelpump.bdf import integrate
-from gelpump.finite_volume import together
 from gelpump.known_solutions.study import Study, one_run, space, time
 from gelpump.tube import slender
 from gelpump.tube.closure import Printed, named
@@ -339,11 +336,8 @@ def spreading_front(closure: str = "printed") -> list[Study]:
     meshes, tolerances = [(16, 16), (32, 32), (64, 64)], [1e-4, 1e-5]
     name = "manufactured tube" + ("" if closure == "printed" else f", {closure}")
     counts = [sum(mesh) for mesh in meshes]
-    runs = together(
-        *(partial(manufactured, mesh, 3e-7, closure) for mesh in meshes),
-        *(partial(manufactured, meshes[0], tolerance, closure) for tolerance in tolerances),
-    )
-    fine, loose = runs[: len(meshes)], runs[len(meshes) :]
+    fine = [manufactured(mesh, 3e-7, closure) for mesh in meshes]
+    loose = [manufactured(meshes[0], tolerance, closure) for tolerance in tolerances]
     cells = [np.abs(error[:-1]).max() for _, error, _ in fine]
     front = [abs(error[-1]) for _, error, _ in fine]
     steps = [count for _, _, count in loose]
@@ -358,23 +352,17 @@ def spreading_front(closure: str = "printed") -> list[Study]:
 def studies() -> list[Study]:
     """All studies of the tube."""
     meshes = [(16, 16), (32, 32), (64, 64)]
-    front, conserving, (in_front, flux), rest, *more = together(
-        spreading_front,
-        partial(spreading_front, "conservative"),
-        partial(thin_wall, (128, 80)),
-        without_jump,
-        *(partial(relaxation, mesh, 1e-8) for mesh in meshes),
-        *(partial(resting_front, mesh) for mesh in meshes),
-    )
-    rates, at_rest = more[: len(meshes)], np.array(more[len(meshes) :])
+    in_front, flux = thin_wall((128, 80))
+    rates = [relaxation(mesh, 1e-8) for mesh in meshes]
+    at_rest = np.array([resting_front(mesh) for mesh in meshes])
     counts = [sum(mesh) for mesh in meshes]
     return [
-        *front,
-        *conserving,
+        *spreading_front(),
+        *spreading_front("conservative"),
         space("resting front, conservative", "Phi_1 at Z_C", counts, at_rest[:, 0], 2e-3),
         one_run("resting front, conservative", "water shed", at_rest[:, 1].max(), 1e-8),
         space("relaxing tube", "rate of the mode", counts, rates, 4e-4),
         one_run("thin wall, ell = 0.9995", "Phi_1 at Z_C", in_front, 1e-3),
         one_run("thin wall, ell = 0.9995", "flux at Z_C", flux, 1e-3),
-        rest,
+        without_jump(),
     ]

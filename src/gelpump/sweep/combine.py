@@ -11,7 +11,7 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
-from gelpump import netcdf
+from gelpump.files import whole
 
 ATTRIBUTES = ("Conventions", "institution", "source", "history", "references", "comment")
 
@@ -26,7 +26,7 @@ def combine(
 ) -> int:
     """Write `size` designs of the chunks, in their order, to `target`; the number that failed."""
     failed = start = 0
-    with netcdf.whole(target) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as out:
+    with whole(target) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as out:
         for path in paths:
             with netCDF4.Dataset(path) as chunk:
                 if start == 0:

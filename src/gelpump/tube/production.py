@@ -1,12 +1,10 @@
 """Production and refinement runs of the family of tubes behind a pulse of heat."""
 
 from collections.abc import Mapping
-from functools import partial
 
 import numpy as np
 import xarray as xr
 
-from gelpump.finite_volume import together
 from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
 from gelpump.tube.front import largest_difference, sharpness
@@ -80,8 +78,7 @@ def refinement(
         {**loose, "cells": [behind, REACH_FACTOR * ahead], "reach": REACH_FACTOR * loose["reach"]},
     ]
     here = production.sel(ell=ell, tau=tau, method="nearest")
-    runs = together(*(partial(pulse, gel, tube, ell, tau, level) for level in levels[1:]))
-    return compared(levels, [here, *runs])
+    return compared(levels, [here, *(pulse(gel, tube, ell, tau, level) for level in levels[1:])])
 
 
 def compared(levels: list[Mapping], runs: list[xr.Dataset]) -> xr.Dataset:

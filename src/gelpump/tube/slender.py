@@ -73,7 +73,7 @@ import numpy as np
 import xarray as xr
 
 from gelpump.bdf import MAX_TRIALS, NotConverged, Step, integrate
-from gelpump.finite_volume import DriftSweep
+from gelpump.finite_volume import NewtonSweep
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
 from gelpump.tube.closure import Printed, named
@@ -178,7 +178,7 @@ class Family:
         self._fore = np.sinh(GRADING_AHEAD * np.arange(1, ahead + 1) / ahead) / np.sinh(
             GRADING_AHEAD
         )
-        self.sweep = DriftSweep(self.tubes * self.cells)
+        self.sweep = NewtonSweep(self.tubes * self.cells, drifts=True)
 
     # The state of bdf: lambda (for its prediction and its error), and the two quantities whose
     # rates of change enter, the content, lambda V or lambda^3 V, and the faces X_f.

@@ -97,7 +97,7 @@ def _plausible(design: Design) -> Light:
 def fitted(fit) -> Light:
     """How well a measured gel's curve goes through its points (`gelpump.materials.measured`)."""
     chi2 = fit.reduced_chi2
-    return Light(FIT, chi2, f"χ² per degree of freedom is {told(chi2)}; " + "; ".join(fit.warnings))
+    return Light(FIT, chi2, f"χ² per degree of freedom is {told(chi2)}")
 
 
 def smallest_diffusivity(design: Design, temperature: float | None = None) -> tuple[float, float]:

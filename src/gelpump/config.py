@@ -183,10 +183,15 @@ def _physical_problems(config) -> Iterator[str]:
     yield from _published_problems(config)
 
 
+def explicit_gels(blocks: Mapping[str, Any]) -> list[str]:
+    """Names of the gels that have a free energy, so that T(phi) is explicit."""
+    return [n for n, b in blocks.items() if b["model"] in ("energy-based", "flory-rehner")]
+
+
 def _bead_problems(key, block, gels, blocks) -> Iterator[str]:
     from gelpump.bead.production import initial_polymer_fraction
 
-    energy_based = sorted(n for n, b in blocks.items() if b["model"] == "energy-based")
+    energy_based = sorted(explicit_gels(blocks))
     name = block["gel"]
     if name not in energy_based:
         yield f"{key}.gel = {name!r}: must be one of the energy-based gels {energy_based}"
@@ -276,7 +281,7 @@ def _choice_problems(config) -> Iterator[str]:
         "view": sorted(config["tube_flow"]),
         "ell": pulse["ell"],
         "tau": sorted({*pulse["tau"], *pulse["tau_range"]}),
-        "gel": sorted(n for n, b in config["gels"].items() if b["model"] == "energy-based"),
+        "gel": sorted(explicit_gels(config["gels"])),
         "case": sorted(config["beads"]),
         "temperature": config["materials"]["temperatures"],
     }

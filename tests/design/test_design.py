@@ -299,6 +299,20 @@ def test_a_configuration_of_other_things_is_refused(tmp_path, text, capsys):
     assert "must be blocks of gels by name" in capsys.readouterr().err
 
 
+def test_a_gel_of_the_literature_brings_its_own_solvent():
+    """Its molar volume turns pressures into pascal; a second one is refused."""
+    name = "acryloylpyrrolidine"
+    text = (PROJECT / f"config/gels/{name}.yaml").read_text()
+    gel = yaml.safe_load(text)["gels"][name]
+    given = block("millitube", gel=name, critical_temperature="45 degC", heating_step="10 K")
+    found = description.checked("mine", given, {name: gel})
+    other = gel | {"solvent_molar_volume": 3.6e-5}
+    halved = description.checked("mine", given, {name: other})
+    assert halved.material.Pi_00 == pytest.approx(found.material.Pi_00 / 2, rel=1e-12)
+    with pytest.raises(description.DesignError, match="molecule_volume = '3e-29 m"):
+        description.checked("mine", given | {"molecule_volume": "3e-29 m^3"}, {name: gel})
+
+
 def plausible(found):
     return next(e for e in validity.before_solving(found) if e.criterion is validity.PLAUSIBLE)
 

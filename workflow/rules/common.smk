@@ -65,7 +65,7 @@ else:  # a job of a workflow that was checked when it started
 # figures and other short ones fill the gaps.
 DATA = "results/data"
 SCRIPTS = "workflow/scripts"
-ENERGY_GELS = [name for name, block in config["gels"].items() if block["model"] == "energy-based"]
+ENERGY_GELS = checked.explicit_gels(config["gels"])
 
 
 def modules(rule):

@@ -3,6 +3,7 @@
 TOLD_FIGURES = {Path(file).stem: told(Path(file).stem) for file in FIGURES if file.endswith(".png")}
 TOLD_FIGURES["verification"] = told("verification")
 TOLD_TABLES = {Path(file).stem: told(Path(file).stem) for file in TABLES if file.endswith(".csv")}
+LINEAR_IN_T = [name for name in ENERGY_GELS if config["gels"][name]["model"] == "energy-based"]
 PAGE_TEMPLATES = sorted(map(str, Path("src/gelpump/report/templates").glob("*.*")))
 
 
@@ -19,7 +20,7 @@ rule report_page:
         ],
         pulse=f"{DATA}/tube_pulse.nc",
         fit=f"{DATA}/front_fit.nc",
-        materials=MATERIALS,
+        materials=expand(f"{DATA}/materials_{{gel}}.nc", gel=LINEAR_IN_T),
         drawings=[*FIGURES, *TABLES],
         captions=[told["caption"] for told in [*TOLD_FIGURES.values(), *TOLD_TABLES.values()]],
         templates=PAGE_TEMPLATES,

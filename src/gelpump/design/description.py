@@ -174,7 +174,12 @@ def _material(block, given, gel, gels, T_cold, T_hot) -> Material:
                 f"critical_temperature, heating_step: {key} = {T:g} K: must be within "
                 f"{lowest:g} to {highest:g} K, the range of gel = {named!r}"
             )
-    material = from_energy(found, T_cold, T_hot, given["molecule_volume"].magnitude)
+    volume = getattr(found, "molecule_volume", None)
+    if volume and "molecule_volume" in block:
+        raise ValueError(
+            f"molecule_volume = {block['molecule_volume']!r}: not allowed, gel = {named!r} gives it"
+        )
+    material = from_energy(found, T_cold, T_hot, volume or given["molecule_volume"].magnitude)
     if not material.Phi_inf > 1:
         raise ValueError(f"gel = {named!r}: does not collapse between {T_cold:g} and {T_hot:g} K")
     return material

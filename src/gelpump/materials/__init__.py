@@ -13,10 +13,20 @@ from typing import Any, Protocol
 
 from numpy.typing import ArrayLike, NDArray
 
+from . import flory_rehner
 from .energy_based import EnergyBasedGel
+from .explicit import ExplicitGel
+from .flory_rehner import FloryRehnerGel
 from .piecewise_linear import PiecewiseLinearGel
 
-__all__ = ["EnergyBasedGel", "Gel", "PiecewiseLinearGel", "from_config"]
+__all__ = [
+    "EnergyBasedGel",
+    "ExplicitGel",
+    "FloryRehnerGel",
+    "Gel",
+    "PiecewiseLinearGel",
+    "from_config",
+]
 
 
 class Gel(Protocol):
@@ -68,10 +78,13 @@ def from_config(name: str, block: Mapping[str, Any]) -> Gel:
     that is missing or unknown, and a value the gel refuses.
     """
     model = block.get("model")
+    if model == "flory-rehner":
+        return flory_rehner.from_block(name, block)
     if not isinstance(model, str) or model not in _MODELS:
-        raise ValueError(f"{name}.model = {model!r}: must be one of {', '.join(_MODELS)}")
+        known = ", ".join([*_MODELS, "flory-rehner"])
+        raise ValueError(f"{name}.model = {model!r}: must be one of {known}")
     gel, keys = _MODELS[model]
-    given = set(block) - {"model"}
+    given = set(block) - {"model", "source"}
     for key in sorted(given - keys):
         raise ValueError(
             f"{name}.{key} = {block[key]!r}: unknown key; {model} takes {sorted(keys)}"

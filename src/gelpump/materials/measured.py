@@ -21,7 +21,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from .energy_based import EnergyBasedGel, _log_tail
+from .energy_based import EnergyBasedGel
+from .explicit import log_tail
 
 NAMES = ("A0", "A1", "B0", "B1", "Omega")
 COLUMNS = ("temperature", "polymer_fraction")
@@ -124,14 +125,14 @@ def fit(name: str, points: Points, temperature_range=None) -> Fit:
 
     middle = points.T.mean()
     T, phi = points.T - middle, points.phi
-    free = _log_tail(phi, 2) / phi**2
+    free = log_tail(phi, 2) / phi**2
     chain = (phi - np.cbrt(phi)) / phi**2
     one = np.ones_like(phi)
     columns = np.column_stack([-chain, one, T, 2 * phi, 2 * phi * T])  # of w, c0, c1, A1', B1
     step = 1e-6 * phi * (1 - phi)
 
     def of_phi(f):
-        return _log_tail(f, 2) / f**2, (f - np.cbrt(f)) / f**2
+        return log_tail(f, 2) / f**2, (f - np.cbrt(f)) / f**2
 
     (up, up_chain), (down, down_chain) = of_phi(phi + step), of_phi(phi - step)
     free_slope, chain_slope = (up - down) / (2 * step), (up_chain - down_chain) / (2 * step)

@@ -51,7 +51,10 @@ def assembled(gel, temperatures, count, fit=None, points=None) -> "xr.Dataset":
             unstable,
             {"units": "1", "long_name": "first and last polymer fraction with D < 0 on the way"},
         ),
-        **{name: ((), getattr(gel, name), _attributes(name)) for name in measured.NAMES},
+        **{
+            name: ((), value, {"units": unit, "long_name": name})
+            for name, (value, unit) in gel.parameters.items()
+        },
     ).assign_coords(
         before=("before", T, {"units": "K", "long_name": "temperature before the jump"}),
         after=("after", T, {"units": "K", "long_name": "temperature after the jump"}),
@@ -119,7 +122,7 @@ def rows(data, gel):
     for each in said(data):
         what, _, text = each.partition(": ")
         yield what, "", text
-    for name in measured.NAMES:
+    for name in gel.parameters:
         error = f"{name}_uncertainty"
         yield name, float(data[name]), f"{float(data[error]):.3g}" if error in data else ""
     for i, T in enumerate(data.fold_temperature.values):

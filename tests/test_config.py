@@ -98,7 +98,11 @@ REFUSALS = [
     ("gels.HHT.Omega", "many", "must be of type number"),
     ("gels.HHT.A0", True, "must be of type number"),
     ("gels.HHT.A0", float("nan"), "must be a finite number"),
-    ("gels.HHT.model", "magic", "must be one of ['energy-based', 'piecewise-linear', 'measured']"),
+    (
+        "gels.HHT.model",
+        "magic",
+        "must be one of ['energy-based', 'flory-rehner', 'piecewise-linear', 'measured']",
+    ),
     ("gels.HHT.temperature_range", [320.0, 290.0], "the first must be lower than the second"),
     ("beads.drying.temperature_final", 400.0, "must be within gels.HHT.temperature_range"),
     ("beads.drying.temperature_initial", 100.0, "290.0 to 320.0 K"),

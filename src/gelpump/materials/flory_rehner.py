@@ -61,7 +61,8 @@ class FloryRehnerGel(ExplicitGel):
     """Gel of the equations above; phi in (0, 1) and T in K broadcast.
 
     constant, slope: p and q of c_1, c_2, c_3.  inverse: whether s = 1/T.  Omega, kappa: of the
-    chains.  charge, salt: i and c.  solvent_molar_volume: of v, m^3/mol.  ValueError for a polymer fraction outside (0, 1).
+    chains.  charge, salt: i and c.  solvent_molar_volume: of v, m^3/mol.  ValueError for a
+    polymer fraction outside (0, 1).
     """
 
     name: str

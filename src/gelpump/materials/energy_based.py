@@ -102,6 +102,13 @@ class EnergyBasedGel(ExplicitGel):
         elastic = (phi**2 / 2 + 0.75 * np.cbrt(phi) ** 4) / self.Omega
         return elastic + log_tail(phi, 3) - phi**3 * (2 / 3 * (a - b) + 1.5 * phi * b)
 
+    def osmotic_energy(self, phi: ArrayLike, T: ArrayLike) -> NDArray:
+        """Integral of Pi/phi^2 over phi: energy of a dry volume, -Pi its slope with J = 1/phi."""
+        phi = fraction(phi)
+        a, b = self._interaction(T)
+        elastic = (np.log(phi) + 1.5 * np.cbrt(phi) ** -2) / self.Omega
+        return elastic + (1 / phi - 1) * np.log1p(-phi) - phi * (a - b + phi * b)
+
     @property
     def equilibrium_pole(self) -> float | None:
         """Polymer fraction at which Pi does not depend on T, or None when there is none."""

@@ -1,0 +1,107 @@
+"""A bead that separates, in the sharp limit: a reference course, independence, laws."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from gelpump.bead import lens, nonlinear
+from gelpump.materials import EnergyBasedGel
+from gelpump.separation import sharp
+from gelpump.separation.coexistence import OnePhase
+from gelpump.separation.energy import ENERGIES
+
+HHT = EnergyBasedGel("HHT", A0=-62.22, A1=-58.28, B0=0.20470, B1=0.19044, Omega=720.0)
+SWOLLEN = HHT.equilibrium_polymer_fraction(304.0)
+TIMES = np.unique(np.concatenate([np.linspace(0.0, 0.5, 201), np.geomspace(1e-5, 0.5, 60)]))
+
+
+@cache
+def bead(model, cells=(80, 40), skin=1e-3, temperature=308.0):
+    energy = ENERGIES[model](HHT, temperature)
+    return sharp.solve(energy, SWOLLEN, TIMES, cells, tolerance=1e-6, skin=skin)
+
+
+def passage(run, R):
+    """When the front is at the dry radius R."""
+    front = run.front_dry_radius.dropna("t")
+    return float(np.interp(-R, -front.values, front.t.values))
+
+
+def test_reference_course():
+    """Computed once before, by another hand with another code; to 0.2 %."""
+    run = bead("nonlinear")
+    np.testing.assert_allclose(run.radius.interp(t=0.1), 1.5289, rtol=2e-3)
+    np.testing.assert_allclose(run.radius.interp(t=0.2), 1.2163, rtol=2e-3)
+    np.testing.assert_allclose(passage(run, 0.3), 0.1664, rtol=2e-3)
+    np.testing.assert_allclose(bead("lens").attrs["completion_t"], 0.354, rtol=2e-3)
+
+
+@pytest.mark.parametrize("model", ["nonlinear", "lens"])
+def test_skin_that_the_front_is_born_with_does_not_matter(model):
+    thin, thick = bead(model), bead(model, skin=5e-3)
+    for R in (0.7, 0.3):
+        np.testing.assert_allclose(passage(thick, R), passage(thin, R), rtol=1e-3)
+
+
+@pytest.mark.parametrize("model", ["nonlinear", "lens"])
+def test_refinement(model):
+    coarse, fine = bead(model, cells=(40, 20)), bead(model)
+    for R in (0.7, 0.3):
+        np.testing.assert_allclose(passage(coarse, R), passage(fine, R), rtol=4e-3)
+    np.testing.assert_allclose(coarse.attrs["completion_t"], fine.attrs["completion_t"], rtol=1e-2)
+
+
+@pytest.mark.parametrize("model", ["nonlinear", "lens"])
+def test_energy_falls_and_polymer_is_kept(model):
+    run = bead(model)
+    # it may rise where a skin is put on or a core is given up, by what that skin or core holds
+    moving = run.front_dry_radius.notnull() & run.front_dry_radius.shift(t=1).notnull()
+    rise = np.diff(run.energy, prepend=np.inf)[moving.values]
+    assert rise.max() < 1e-9
+    assert abs(run.polymer_volume_error).max() < 1e-10
+    assert np.all(run.r_face.diff("face") > 0)
+    assert run.smallest_stiffness.min() > 0
+
+
+@pytest.mark.parametrize("model", ["nonlinear", "lens"])
+def test_ends_in_the_dry_equilibrium(model):
+    run = bead(model)
+    dry = HHT.equilibrium_polymer_fraction(308.0, "dry")
+    np.testing.assert_allclose(run.radius[-1], dry ** (-1 / 3), rtol=1e-6)
+
+
+@pytest.mark.parametrize(("model", "solver"), [("nonlinear", nonlinear), ("lens", lens)])
+def test_below_separation_it_is_the_bead_of_one_phase(model, solver):
+    times = np.array([0.0, 0.05, 0.2, 1.0])
+    energy = ENERGIES[model](HHT, 307.5)
+    run = sharp.solve(energy, SWOLLEN, times, (60, 30), tolerance=1e-8)
+    whole = solver.solve(HHT, 307.5, SWOLLEN, times, 90, tolerance=1e-7)
+    assert "birth_t" not in run.attrs
+    np.testing.assert_allclose(run.radius, whole.radius, rtol=2e-4)
+
+
+def test_born_when_the_bead_of_one_phase_stops():
+    whole = lens.solve(HHT, 308.0, SWOLLEN, TIMES, 120, tolerance=1e-5)
+    np.testing.assert_allclose(bead("lens").attrs["birth_t"], whole.stopped_t, rtol=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ({"skin": 0.2}, "skin"),
+        ({"cells": (3, 40)}, "cells"),
+        ({"times": [0.1, 0.2]}, "times"),
+    ],
+)
+def test_refusals(change, named):
+    arguments = {"times": TIMES, "cells": (40, 20), "skin": 1e-3} | change
+    times, cells = arguments.pop("times"), arguments.pop("cells")
+    energy = ENERGIES["lens"](HHT, 308.0)
+    with pytest.raises(ValueError, match=named):
+        sharp.solve(energy, SWOLLEN, times, cells, tolerance=1e-6, **arguments)
+
+
+def test_unstable_start_is_refused():
+    with pytest.raises(OnePhase, match="not stable"):
+        sharp.solve(ENERGIES["lens"](HHT, 308.0), 0.3, TIMES, (40, 20), tolerance=1e-6)

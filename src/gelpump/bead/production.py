@@ -1,5 +1,6 @@
 """Production and refinement runs of a bead case, and what is measured along each of them."""
 
+import logging
 from collections.abc import Callable, Mapping, Sequence
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,7 @@ Meshes = tuple[Sequence[int], float]
 
 MEASURED = ("radius", "surface_polymer_fraction", "smallest_diffusivity", "steepest_gradient")
 TOLERANCE_FACTOR = 4.0
+LOG = logging.getLogger(__name__)
 
 
 def output_times(case: Mapping, count: int) -> np.ndarray:
@@ -79,7 +81,7 @@ def run(
             beads = model.solve_meshes(
                 gel, temperature, phi_initial, times, cells, tolerance=tolerance
             )
-            print(cells, tolerance, beads[0].attrs)
+            LOG.info("%s cells, tolerance %g: %s", cells, tolerance, beads[0].attrs)
             made += [measured(bead, gel, temperature) for bead in beads]
         return made
 

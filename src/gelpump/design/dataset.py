@@ -1,7 +1,7 @@
 """Everything known of a design in one dataset, from which the sheet and the CSV are made."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def assemble(
     design: Design,
-    numerics,
+    numerics: Mapping[str, Any],
     gel_errors: Mapping[str, float] | DesignError | None = None,
     fit: "Fit | None" = None,
 ) -> xr.Dataset:

@@ -29,8 +29,12 @@ from gelpump.tube.wall_flow import Wall, lumen_share, source_coefficient
 SIDES = ("behind", "ahead")
 
 
-def water_budget(pulse):
-    """Rates and volumes of each tube and time, dims (ell, tau) and the side of the front."""
+def water_budget(pulse: xr.Dataset) -> xr.Dataset:
+    """Rates and volumes of each tube and time, dims (ell, tau) and the side of the front.
+
+    `pulse` is what `gelpump.tube.solve` gives; volumes in a_1^2 L, times in mu_l L^2/(k Pi_00)
+    (section 3.6.2).
+    """
     wall, behind = Wall.of(pulse), pulse.attrs["cells_behind"]
     ell = pulse.ell.values[:, np.newaxis]
     sigma = lumen_share(ell)

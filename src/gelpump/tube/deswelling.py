@@ -18,8 +18,10 @@ whatever the parameters, so Gauss-Legendre converges geometrically.
 """
 
 from functools import cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from gelpump.tube.tubes import Tubes
 
@@ -29,10 +31,14 @@ BLOCK = 2**14  # designs whose intermediate results stay in the processor's cach
 EPS = 0.1  # any: t_99 does not depend on it
 
 
-def deswelling_time(tubes, percent_left=1.0, reswelling=False, nodes=NODES):
+def deswelling_time(
+    tubes: Tubes, percent_left: float = 1.0, reswelling: bool = False, nodes: int = NODES
+) -> NDArray:
     """Time until `percent_left` per cent of the change is still to come: tau_99 by default.
 
-    From Phi = 1 to Phi_inf in a tube heated everywhere, or back if `reswelling`.
+    From Phi = 1 to Phi_inf in a tube heated everywhere, or back if `reswelling` (section 3.4). In
+    units of mu_l L^2/(k Pi_00), shape of the tubes. ValueError for a `percent_left` that is none,
+    and for Phi_inf = 1, where nothing changes.
     """
     if not 0 < percent_left < 100:
         raise ValueError(f"percent_left = {percent_left!r} is not allowed: 0 < percent_left < 100")
@@ -47,14 +53,24 @@ def deswelling_time(tubes, percent_left=1.0, reswelling=False, nodes=NODES):
 
 
 def response_time(
-    a_0, a_1, permeability, viscosity, osmotic_modulus, *, M, Pi_ratio, Phi_inf, **which
-):
+    a_0: ArrayLike,
+    a_1: ArrayLike,
+    permeability: ArrayLike,
+    viscosity: ArrayLike,
+    osmotic_modulus: ArrayLike,
+    *,
+    M: ArrayLike,
+    Pi_ratio: ArrayLike,
+    Phi_inf: ArrayLike,
+    **which: Any,
+) -> NDArray:
     """t_99 in seconds of tubes that are heated everywhere, all arguments in SI units.
 
     `a_0` and `a_1` (m) are the radii of the swollen tube, `osmotic_modulus` (Pa) is Pi_00; the
     others are those of `Tubes`; `which` is passed to `deswelling_time`. Everything is broadcast.
     With L = a_1/eps the time mu_l L^2/(k Pi_00) tau_99 does not depend on eps: only the thickness
-    of the wall enters, t_99 = mu_l (a_1 - a_0)^2/(16 k Pi_00) times the quadrature.
+    of the wall enters, t_99 = mu_l (a_1 - a_0)^2/(16 k Pi_00) times the quadrature (section 3.4).
+    ValueError for what is no tube, or no positive number.
 
     Works through blocks of designs, so that beside the result the memory is the same for any number
     of them; a million take some two seconds.
@@ -75,8 +91,13 @@ def response_time(
     return time[()]
 
 
-def deswelling_curve(tau, tubes, reswelling=False, nodes=NODES):
+def deswelling_curve(
+    tau: ArrayLike, tubes: Tubes, reswelling: bool = False, nodes: int = NODES
+) -> NDArray:
     """Phi_1(tau) of a uniformly heated (or cooled) tube; `tau` and the tubes are broadcast.
+
+    `tau` is in units of mu_l L^2/(k Pi_00) (section 3.4). ValueError if it is negative or nothing
+    changes, RuntimeError if the iteration does not converge.
 
     tau(y) is monotone and nearly linear, so Newton's iteration inverts it in a few steps.
     """

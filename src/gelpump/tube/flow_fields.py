@@ -10,7 +10,7 @@ from gelpump.tube.wall_flow import Wall
 ACROSS_WALL, ACROSS_LUMEN = 41, 11
 
 
-def tube_flow(pulse, ell, tau) -> xr.Dataset:
+def tube_flow(pulse: xr.Dataset, ell: float, tau: float) -> xr.Dataset:
     """Polymer fraction and velocities in the wall and the lumen; as printed unless named otherwise.
 
     Radii follow the material: R is the one that a point of the wall had in the swollen tube, and

@@ -12,28 +12,35 @@ w = eps (1-ell)/4, so a window in units of w is the same for all tubes.
 A power law A = c (1-ell)^-n is fitted to the logarithms.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 WINDOW = 8.0  # in units of w: a wider one changes A by less than 1e-4
 
 
-def tanh_profile(x, Phi_inf):
+def tanh_profile(x: ArrayLike, Phi_inf: ArrayLike) -> NDArray:
     """Phi_1 of eqn:tanh_fit at x = A (Z - Z_C)."""
     return Phi_inf - (Phi_inf - 1) / 2 * (1 + np.tanh(x))
 
 
-def wall_length(pulse):
+def wall_length(pulse: "xr.Dataset") -> NDArray:
     """w = eps (1-ell)/4 of each tube, shape (ell,)."""
     return pulse.eps.values * (1 - pulse.ell.values) / 4
 
 
-def sharpness(pulse, window=WINDOW, in_units_of_A=False):
-    """A and the root-mean-square misfit of Phi_1, shapes (ell, tau).
+def sharpness(
+    pulse: "xr.Dataset", window: float = WINDOW, in_units_of_A: bool = False
+) -> tuple[NDArray, NDArray]:
+    """A of eqn:tanh_fit, in 1/L, and the root-mean-square misfit of Phi_1, shapes (ell, tau).
 
-    `window` is in units of w, or of 1/A. Gauss-Newton's iteration for ln A, all tubes and times at
-    once.
+    `pulse` is what `gelpump.tube.solve` gives, `window` in units of w, or of 1/A. Gauss-Newton's
+    iteration for ln A, all tubes and times at once; RuntimeError if it does not converge.
     """
     Phi_inf = pulse.Phi_inf.values[:, np.newaxis, np.newaxis]
     w = wall_length(pulse)[:, np.newaxis, np.newaxis]
@@ -61,16 +68,16 @@ class PowerLaw(NamedTuple):
     exponent_uncertainty: float
     prefactor: float
 
-    def sharpness(self, ell):
+    def sharpness(self, ell: ArrayLike) -> NDArray:
         """A of a tube."""
         return self.prefactor * (1 - np.asarray(ell)) ** -self.exponent
 
-    def one_minus_ell(self, A):
+    def one_minus_ell(self, A: ArrayLike) -> NDArray:
         """1-ell of the tube that has this A."""
         return (np.asarray(A) / self.prefactor) ** (-1 / self.exponent)
 
 
-def power_law(ell, A, A_uncertainty):
+def power_law(ell: ArrayLike, A: ArrayLike, A_uncertainty: ArrayLike) -> PowerLaw:
     """Least squares in logarithms.
 
     The exponent's uncertainty joins the standard error from the scatter with the largest change
@@ -89,12 +96,12 @@ def power_law(ell, A, A_uncertainty):
     )
 
 
-def local_exponent(ell, A):
+def local_exponent(ell: ArrayLike, A: ArrayLike) -> NDArray:
     """-d ln A / d ln(1-ell), which is n at every ell where a power law holds."""
     return -np.gradient(np.log(A), np.log(1 - np.asarray(ell)))
 
 
-def profile(tube):
+def profile(tube: "xr.Dataset") -> Callable[[NDArray], NDArray]:
     """Phi_1 as a function of Z - Z_C, of one tube at one time.
 
     Splines on either side of the front, where the slope jumps. Phi_1 is an even function of Z, and
@@ -115,7 +122,7 @@ def profile(tube):
     return Phi1
 
 
-def largest_difference(pulse, other):
+def largest_difference(pulse: "xr.Dataset", other: "xr.Dataset") -> NDArray:
     """Largest difference of Phi_1 at the same Z - Z_C, in the cells of `pulse`, dims (ell, tau).
 
     `other` has the same tubes, at the same times or at one time only.

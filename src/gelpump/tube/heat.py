@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import erfc, erfcinv
 
 FRONT_CONSTANT = 2 * erfcinv(0.5)  # Z_C / sqrt(Le tau)
@@ -25,13 +26,13 @@ FRONT_CONSTANT = 2 * erfcinv(0.5)  # Z_C / sqrt(Le tau)
 class Heat(Protocol):
     """What a temperature field has to offer; one front, at Z = 0 when tau = 0."""
 
-    def front(self, tau):
+    def front(self, tau: ArrayLike) -> NDArray:
         """Z_C(tau), where theta = 0."""
 
-    def front_speed(self, tau):
+    def front_speed(self, tau: ArrayLike) -> NDArray:
         """dZ_C/dtau."""
 
-    def theta(self, Z, tau):
+    def theta(self, Z: ArrayLike, tau: ArrayLike) -> NDArray:
         """(T - T_C)/Delta T."""
 
 
@@ -48,15 +49,15 @@ class StepHeating:
         if not (np.isfinite(self.Le) & (np.asarray(self.Le) > 0)).all():
             raise ValueError(f"Le = {self.Le!r} is not allowed: it must be positive and finite")
 
-    def front(self, tau):
+    def front(self, tau: ArrayLike) -> NDArray:
         """Position Z_C where theta = 0."""
         return FRONT_CONSTANT * np.sqrt(self.Le * np.asarray(tau, float))
 
-    def front_speed(self, tau):
+    def front_speed(self, tau: ArrayLike) -> NDArray:
         """Speed dZ_C/dtau."""
         return 0.5 * FRONT_CONSTANT * np.sqrt(self.Le / np.asarray(tau, float))
 
-    def theta(self, Z, tau):
+    def theta(self, Z: ArrayLike, tau: ArrayLike) -> NDArray:
         """Temperature (T - T_C)/Delta T."""
         return 2 * erfc(np.asarray(Z) / (2 * np.sqrt(self.Le * np.asarray(tau, float)))) - 1
 

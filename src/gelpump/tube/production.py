@@ -1,9 +1,11 @@
 """Production and refinement runs of the family of tubes behind a pulse of heat."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
@@ -13,6 +15,9 @@ from gelpump.tube.slender import solve
 from gelpump.tube.tubes import Tubes
 from gelpump.tube.wall_flow import Wall
 from gelpump.uncertainty import convergence_index
+
+if TYPE_CHECKING:
+    from gelpump.materials import PiecewiseLinearGel
 
 TOLERANCE_FACTOR = 4.0
 REACH_FACTOR = 2
@@ -37,15 +42,30 @@ def family_tau(settings: Mapping) -> np.ndarray:
     )
 
 
-def family(gel, tube: Mapping, settings: Mapping, numerics: Mapping) -> xr.Dataset:
-    """All tubes at all times."""
+def family(
+    gel: "PiecewiseLinearGel",
+    tube: Mapping[str, Any],
+    settings: Mapping[str, Any],
+    numerics: Mapping[str, Any],
+) -> xr.Dataset:
+    """All tubes at all times: figures 8 to 13, as `solve` gives them.
+
+    tube, settings, numerics: the configuration's ``tube``, ``tube_pulse`` and
+    ``numerics.tube_pulse``.
+    """
     ell, in_law = family_ell(settings)
     return pulse(gel, tube, ell, family_tau(settings), numerics).assign(
         in_power_law=variable("ell", in_law, "whether the power law is fitted to this tube")
     )
 
 
-def pulse(gel, tube: Mapping, ell, tau, numerics: Mapping) -> xr.Dataset:
+def pulse(
+    gel: "PiecewiseLinearGel",
+    tube: Mapping[str, Any],
+    ell: ArrayLike,
+    tau: ArrayLike,
+    numerics: Mapping[str, Any],
+) -> xr.Dataset:
     """The solved tubes, with the Lewis number."""
     return solve(
         Tubes(ell, tube["eps"], gel.M, gel.Pi_ratio, gel.Phi_inf),
@@ -58,13 +78,18 @@ def pulse(gel, tube: Mapping, ell, tau, numerics: Mapping) -> xr.Dataset:
 
 
 def refinement(
-    gel, tube: Mapping, numerics: Mapping, subset: Mapping, production: xr.Dataset
+    gel: "PiecewiseLinearGel",
+    tube: Mapping[str, Any],
+    numerics: Mapping[str, Any],
+    subset: Mapping[str, Any],
+    production: xr.Dataset,
 ) -> xr.Dataset:
     """Some tubes of `production` with looser time steps, and those on other meshes and domains.
 
     Dims (level, ell, tau), level 0 being production. Looser steps cost less, and the errors of
     space and time hardly depend on each other: meshes are compared at four times production's
-    tolerance, and the uncertainty of time is that of this tolerance.
+    tolerance, and the uncertainty of time is that of this tolerance. `subset` is the
+    configuration's ``numerics.refine_tube_pulse``.
     """
     ell, tau = subset["ell"], subset["tau"]
     behind, ahead = numerics["cells"]

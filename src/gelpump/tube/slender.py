@@ -71,6 +71,7 @@ import warnings
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from gelpump.bdf import MAX_TRIALS, NotConverged, Step, integrate
 from gelpump.finite_volume import NewtonSweep
@@ -93,7 +94,7 @@ DEPARTED = 0.1  # of Phi_inf - 1: nearer to Phi_0 than this counts as relaxed
 def solve(
     tubes: Tubes,
     heat: Heat,
-    tau,
+    tau: ArrayLike,
     *,
     cells: tuple[int, int] = (64, 40),
     tolerance: float = 3e-5,
@@ -105,6 +106,10 @@ def solve(
     books: bool = False,
 ) -> xr.Dataset:
     """Phi_1 of all `tubes` at the times `tau`, on cells behind and ahead of the front.
+
+    Times are in mu_l L^2/(k Pi_00), lengths in L (eqn:tube_model). The dataset has the dims ell,
+    tau, cell and face: Phi1 and Z(ell, tau, cell), Z_C(tau), and what else its attributes say.
+    ValueError for times that do not increase from above 0, or a front that does not move ahead.
 
     `tolerance` bounds the local error of Phi_1 in a time step, `order` (2 or 3) is that of the time
     steps, `reach` the distance from the front to the end of the domain in units of w (Phi_1 = 1

@@ -1,5 +1,8 @@
 """Datasets of uniform deswelling (section 3.4, figure 7), from `gelpump.tube.deswelling`."""
 
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 import xarray as xr
 
@@ -14,12 +17,22 @@ from gelpump.tube.deswelling import (
 )
 from gelpump.uncertainty import quadrature_error
 
+if TYPE_CHECKING:
+    from gelpump.materials import PiecewiseLinearGel
+
 TAU99 = "time until the polymer fraction has made 99 per cent of its change"
 TIME = "in units of mu_l L^2/(k Pi_00)"
 
 
-def deswelling_map(gel, eps, settings):
-    """tau_99 over M and Pi_ratio, and over Phi_inf and M; and of the gel itself for a few ell."""
+def deswelling_map(
+    gel: "PiecewiseLinearGel", eps: float, settings: Mapping[str, Any]
+) -> xr.Dataset:
+    """tau_99 over M and Pi_ratio, and over Phi_inf and M; and of the gel itself for a few ell.
+
+    settings: the configuration's ``deswelling_map``.  Times in mu_l L^2/(k Pi_00), dims (M,
+    Pi_ratio), (M, Phi_inf) and (ell,), each with its uncertainty (section 3.4, figure 7).
+    ValueError if a tube is none (`Tubes`).
+    """
     M, Pi_ratio = (np.geomspace(*settings[key], settings["points"]) for key in ("M", "Pi_ratio"))
     ell, Phi_inf = (np.array(settings[key]) for key in ("compared_ell", "Phi_inf"))
     column = M[:, np.newaxis]
@@ -47,8 +60,15 @@ def deswelling_map(gel, eps, settings):
     )
 
 
-def deswelling_curves(gel, eps, settings):
-    """Phi_1(tau) of tubes heated everywhere at once, and of tubes cooled again."""
+def deswelling_curves(
+    gel: "PiecewiseLinearGel", eps: float, settings: Mapping[str, Any]
+) -> xr.Dataset:
+    """Phi_1(tau) of tubes heated everywhere at once, and of tubes cooled again.
+
+    settings: the configuration's ``deswelling_curves``.  Dims (ell, tau), times in
+    mu_l L^2/(k Pi_00), each with its uncertainty (section 3.4, figure 7).  ValueError if a tube is
+    none (`Tubes`), or a time negative.
+    """
     ell = np.array(settings["ell"])
     tau = np.linspace(0.0, settings["end"], settings["points"])
     tau = np.unique(np.concatenate([tau, settings["published_times"]]))

@@ -4,12 +4,13 @@
     solve                         the tubes behind a front                    (eqn:tube_model)
     deswelling_time, _curve       of tubes that are heated everywhere         (section 3.4)
     response_time                 the same in seconds, from SI units
-    sharpness, tube_flow, velocities, water_budget   of solved tubes    (sections 3.5 and 3.6)
+    sharpness, tube_flow, water_budget   of solved tubes              (sections 3.5 and 3.6)
 
 and the paper's production cases, from blocks of the configuration:
 
     family, refinement            the tubes of figures 8 to 13, and some on other meshes
-    deswelling_map, deswelling_curves, front_fit, lumen_pulse
+    deswelling_map, deswelling_curves                                 (figure 7)
+    front_fit.front_fit, lumen_pulse.lumen_pulse     of the family    (figures 9 and 12)
 """
 
 from gelpump.lazy import face
@@ -24,6 +25,8 @@ __getattr__, __dir__, __all__ = face(
         "deswelling_map": "tube.uniform:deswelling_map",
         "deswelling_time": "tube.deswelling:deswelling_time",
         "family": "tube.production:family",
+        "front_fit": "tube.front_fit",
+        "lumen_pulse": "tube.lumen_pulse",
         "refinement": "tube.production:refinement",
         "response_time": "tube.deswelling:response_time",
         "sharpness": "tube.front:sharpness",

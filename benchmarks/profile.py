@@ -28,7 +28,7 @@ GROUPS = {
     "figures": r"fig",
     "beads": r"bead",
     "tubes": r"tube|refine|deswelling|front|lumen|water",
-    "evidence": r"verif|second|cross|claims|ledger",
+    "evidence": r"verif|second|cross|statements",
     "others": r"",
 }
 

@@ -4,7 +4,7 @@ A build is a set of jobs, each with its rule, its inputs and its outputs; second
 Snakemake measured of each job.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -96,12 +96,3 @@ def _ends(marker: str, text: str) -> tuple[int, int]:
     if text.count(opening) != 1 or text.count(closing) != 1:
         raise ValueError(f"the markers {opening} and {closing} do not stand there once each")
     return text.index(opening) + len(opening), text.index(closing)
-
-
-def verdict(counts: Mapping[str, int]) -> str:
-    """How many statements of the paper were checked, and how they fared."""
-    statuses: Sequence[str] = [f"{count} {status}" for status, count in counts.items()]
-    return (
-        f"Of {sum(counts.values())} statements of the paper that can be checked:\n\n"
-        + ", ".join(statuses)
-    )

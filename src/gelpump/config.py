@@ -306,7 +306,13 @@ def _choice_problems(config) -> Iterator[str]:
 
 
 def _published_problems(config) -> Iterator[str]:
-    """Radii that were read off a figure need a time each, unless no time is compared at all."""
+    """Radii that were read off a figure need a time each, unless no time is compared at all; where
+    each value has a resolution, there are as many."""
+    for claim, block in config["published"].items():
+        value, resolution = block["value"], block.get("resolution")
+        many = value if isinstance(value, list) else []
+        if isinstance(resolution, list) and len(resolution) != len(many):
+            yield f"published.{claim}.resolution = {resolution}: must be one number, or one a value"
     for verb, case in (("swell", "swelling"), ("dry", "drying")):
         times = config["beads"][case]["published_times"] if case in config["beads"] else []
         for model in ("lens", "nonlinear"):

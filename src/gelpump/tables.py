@@ -1,8 +1,8 @@
 """Tables as CSV, Markdown and LaTeX, from the same columns and rows."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gelpump.text import write_text
 
@@ -39,11 +39,20 @@ def markdown(columns: Sequence[Column], rows: Iterable[Sequence[Cell]]) -> str:
         "---" if any(isinstance(row[i], str) for row in rows) else "---:"
         for i in range(len(columns))
     ]
-    lines = [[column.heading for column in columns], sides, *rows]
+    return _lines([[column.heading for column in columns], sides, *rows])
+
+
+def _lines(rows: Iterable[Sequence[Cell]]) -> str:
     return "".join(
-        "| " + " | ".join(printed(cell).replace("|", r"\|") for cell in line) + " |\n"
-        for line in lines
+        "| " + " | ".join(printed(cell).replace("|", r"\|") for cell in row) + " |\n"
+        for row in rows
     )
+
+
+def page(title: str, intro: str, columns: Mapping[str, Callable[[Any], Cell]], of: Iterable) -> str:
+    """A Markdown page with one table: of each thing, what every column makes of it."""
+    rows = [[column(each) for column in columns.values()] for each in of]
+    return f"# {title}\n\n{intro}\n\n{_lines([columns, ['---'] * len(columns), *rows])}"
 
 
 def latex(columns: Sequence[Column], rows: Iterable[Sequence[Cell]]) -> str:

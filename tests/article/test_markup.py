@@ -8,9 +8,9 @@ from gelpump.report.content import Claim, Disagreement, Figure
 from gelpump.report.notation import from_plain
 
 
-def figure(statuses, found=()):
+def figure(statuses, ledger=()):
     claims = [Claim(n, "", "", [], "", "", [], None, s, "") for n, s in enumerate(statuses)]
-    ledger = [Disagreement("", "", [], [], [], "", "", each, "", "") for each in found]
+    ledger = [Disagreement("", "", [], [], [], "", "", each, "", "") for each in ledger]
     return Figure("fig03", 3, "", "", [], [], {}, None, claims, ledger)
 
 
@@ -50,8 +50,8 @@ def test_enumerations():
     ("statuses", "found", "expected"),
     [
         (["reproduced", "qualitative"], [], "fully"),
-        (["reproduced"], [False], "fully"),
-        (["reproduced"], [True], "partly"),
+        (["reproduced"], ["misprint"], "partly"),
+        (["reproduced", "identity"], [], "fully"),
         (["reproduced", "deviates"], [], "partly"),
         (["deviates"], [], "not"),
         (["qualitative"], [], "nothing to compare"),

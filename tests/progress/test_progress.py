@@ -178,10 +178,10 @@ def record(jobid, rule, log):
 
 def test_what_is_left_is_estimated_from_measured_seconds(tmp_path):
     seconds = tmp_path / "seconds.json"
-    seconds.write_text('{"bead_drying_lens": 8.0, "bead_swelling_lens": 6.0, "claims": 2.0}')
+    seconds.write_text('{"bead_drying_lens": 8.0, "bead_swelling_lens": 6.0, "statements": 2.0}')
     build = Build(seconds)
     build.cores = 2
-    build.plan({"bead_lens": 2, "claims": 1, "all": 1, "total": 4})
+    build.plan({"bead_lens": 2, "statements": 1, "all": 1, "total": 4})
     assert build.total == 3
     assert build.remaining() == pytest.approx((7.0 * 2 + 2.0) / 2)
     build.begin(record(1, "bead_lens", "results/logs/bead_drying_lens.log"))

@@ -92,11 +92,11 @@ def append_comment(path: Path) -> None:
 @pytest.mark.parametrize(
     ("edited", "rerun", "kept"),
     [
-        ("figures/style.py", {"fig03_swell_bead"}, {"materials", "bead_lens", "claims"}),
+        ("figures/style.py", {"fig03_swell_bead"}, {"materials", "bead_lens", "statements"}),
         ("figures/fig13_osmotic.py", {"fig13_osmotic"}, {"fig14_equilibrium", "materials"}),
         (
             "bead/lens.py",
-            {"bead_lens", "fig03_swell_bead", "claims"},
+            {"bead_lens", "fig03_swell_bead", "statements"},
             {"bead_nonlinear", "materials", "fig14_equilibrium"},
         ),
         (
@@ -104,7 +104,7 @@ def append_comment(path: Path) -> None:
             {"bead_nonlinear", "fig03_swell_bead"},
             {"bead_lens", "fig05_spinodal", "materials"},
         ),
-        ("claims/beads.py", {"claims"}, {"bead_lens", "fig03_swell_bead"}),
+        ("statements/beads.py", {"statements"}, {"bead_lens", "fig03_swell_bead"}),
     ],
 )
 def test_an_edit_reruns_what_depends_on_it(built, edited, rerun, kept):

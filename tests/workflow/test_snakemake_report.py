@@ -28,6 +28,8 @@ def test_everything_shown_has_a_caption_and_labels(built, report):
         for name in (
             "claims",
             "ledger",
+            "beyond",
+            "figure_numbers",
             "cross_check",
             "verification",
             "table1_tube_parameters",
@@ -35,7 +37,7 @@ def test_everything_shown_has_a_caption_and_labels(built, report):
         )
     }
     paths = {str(path.relative_to(built.path)) for path in shown}
-    assert len(paths) == 21
+    assert len(paths) == 23
     assert paths <= set(results)
     for path, result in results.items():
         assert len(result["caption"]) > 60, path

@@ -7,9 +7,7 @@ rule article:
         + ["results/figures/verification.svg"],
         tables=[table for table in TABLES if table.endswith(".csv")],
         told=[
-            "results/claims.json",
-            "results/ledger.json",
-            "results/tables/figure_numbers.json",
+            *rules.statements.output,
             "results/verification.json",
             "results/cross_check.json",
             "CITATION.cff",

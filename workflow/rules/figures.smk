@@ -340,9 +340,8 @@ rule fig12_axial_flow:
     benchmark:
         "results/benchmarks/fig12_axial_flow.tsv"
     params:
-        figure=config["figures"]["fig12_axial_flow"],
         pulse=config["lumen_pulse"],
-        published=published("lumen-peak-height", "lumen-far-nonzero", "lumen-peak-product"),
+        published=published("lumen-peak-height", "lumen-far-nonzero"),
     script:
         "../scripts/fig12_axial_flow.py"
 

@@ -10,9 +10,7 @@ PAGE_TEMPLATES = sorted(map(str, Path("src/gelpump/report/templates").glob("*.*"
 rule report_page:
     input:
         verdicts=[
-            "results/claims.json",
-            "results/ledger.json",
-            "results/tables/figure_numbers.json",
+            *rules.statements.output,
             *CHECKS,
         ],
         data=[

@@ -8,7 +8,7 @@ with job(snakemake):
     from pathlib import Path
 
     from gelpump import build_map
-    from gelpump.claims import table
+    from gelpump.statements import views
     from gelpump.text import write_json, write_text
 
     params = snakemake.params
@@ -30,7 +30,7 @@ with job(snakemake):
     text = readme.read_text(encoding="utf-8")
     for marker, content in (
         ("map", build_map.table(build_map.rows(jobs), seconds)),
-        ("verdict", build_map.verdict(table.counts(claims))),
+        ("verdict", views.headline(claims)),
     ):
         text = build_map.replaced(marker, text, content)
     write_json(seconds, params.seconds)

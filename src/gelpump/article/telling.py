@@ -1,7 +1,6 @@
 """What the article says: sentences and tables, all of whose numbers and verdicts are computed.
 
-A sentence that rests on a verdict is written from it.  KeyError if the ledger has no entry that
-one is about.
+A sentence that rests on a verdict is written from it.
 """
 
 import re
@@ -14,10 +13,10 @@ from gelpump.report.notation import from_plain
 
 # what a reader should know first, in this order
 FOREMOST = (
-    "lens-curve-swelling",
-    "lens-curve-drying",
-    "figure-9b-sharpness",
-    "figure-9b-exponent",
+    "swell-radius-lens",
+    "dry-radius-lens",
+    "A-values",
+    "A-exponent",
     "figure-12-prefactor",
     "radial-structure",
     "printed-digits-of-table-2",
@@ -33,9 +32,10 @@ def telling(content: Content, config: Mapping[str, Any], seconds: Mapping[str, f
         "figures": [_figure(figure, ledger) for figure in content.figures],
         "verification_figure": _figure(content.verification_figure, ledger),
         "tables": [_table(table) for table in content.tables],
-        "foremost": [_disagreement(*ledger[name]) for name in FOREMOST],
+        "foremost": [_disagreement(*ledger[name]) for name in FOREMOST if name in ledger],
         "claims": [_claim(each) for each in content.claims],
         "ledger": [_disagreement(rank, each) for rank, each in ledger.values()],
+        "beyond": [_claim(each) for each in content.beyond],
         "verification": [_study(each) for each in content.verification],
         "cross_check": [_comparison(each) for each in content.cross_check],
         "evidence": [runs(from_plain(text)) for text in _evidence(content)],
@@ -64,8 +64,9 @@ def extent(figure: Figure) -> str:
     Fully if every statement about it that can be decided is reproduced, and the ledger holds no
     disagreement about it.
     """
-    decided = [claim.status for claim in figure.claims if claim.status != "qualitative"]
-    found = any(entry.found for entry in figure.ledger)
+    apart = "qualitative", "identity", "misprint"
+    decided = [claim.status for claim in figure.claims if claim.status not in apart]
+    found = bool(figure.ledger)
     if not decided:
         return "partly" if found else "nothing to compare"
     if "reproduced" not in decided:
@@ -83,20 +84,18 @@ def _abstract(content):
         "from the equations that the paper states, its printed parameters and nothing else."
     )
     yield (
-        f"Of {sum(counts.values())} statements that can be checked, {counts['reproduced']} are "
-        f"reproduced within the printed digits and our numerical uncertainty, "
-        f"{counts['deviates']} deviate, {counts['inconsistent-in-paper']} are inconsistent within "
-        f"the paper, and {counts['qualitative']} are qualitative."
+        f"Of {content.tested} statements that a computation could contradict, "
+        f"{counts['reproduced']} are reproduced within the printed digits and our numerical "
+        f"uncertainty, {counts['deviates']} deviate, {counts['inconsistent-in-paper']} are "
+        f"inconsistent within the paper, and {counts['qualitative']} are qualitative. Apart from "
+        f"these, {content.apart['identity']} could not have come out otherwise, and "
+        f"{content.apart['misprint']} printed lines differ from their own derivation."
     )
     yield (
         f"Figures {listed(by_extent.get('fully', []))} are reproduced fully, "
         f"{listed(by_extent.get('partly', []))} partly, {listed(by_extent.get('not', []))} not; "
         f"in figures {listed(by_extent.get('nothing to compare', []))} there is nothing printed to "
         "compare with."
-    )
-    yield (
-        f"Of {len(content.ledger)} suspected disagreements of the paper with itself or with what "
-        f"follows from its equations, a computed number confirms {content.disagreements}."
     )
 
 
@@ -126,9 +125,7 @@ def _reading(content):
 
 def _equations(content):
     ranks = [
-        f"L{rank}"
-        for rank, entry in enumerate(content.ledger, start=1)
-        if "eqn" in entry.where and entry.found
+        f"L{rank}" for rank, entry in enumerate(content.ledger, start=1) if "eqn" in entry.where
     ]
     if not ranks:
         return "No printed equation was found to disagree with what it is derived from."
@@ -142,7 +139,7 @@ def _extent(figure, ledger):
     names = {status: [] for status in ("reproduced", "deviates", "inconsistent-in-paper")}
     for claim in figure.claims:
         names.setdefault(claim.status, []).append(str(claim.number))
-    ranks = [f"L{ledger[entry.id][0]}" for entry in figure.ledger if entry.found]
+    ranks = [f"L{ledger[entry.id][0]}" for entry in figure.ledger]
     other = names["deviates"] + names["inconsistent-in-paper"]
     return {
         "number": figure.number,
@@ -155,7 +152,7 @@ def _extent(figure, ledger):
 
 
 def _figure(figure, ledger):
-    ranks = [f"L{ledger[entry.id][0]}" for entry in figure.ledger if entry.found]
+    ranks = [f"L{ledger[entry.id][0]}" for entry in figure.ledger]
     claims = [f"{each.number} ({each.status})" for each in figure.claims]
     parts = []
     if claims:
@@ -217,8 +214,8 @@ def _disagreement(rank, entry):
         "measured": runs(entry.measured),
         "size": number(entry.size),
         "allowed": number(entry.allowed),
-        "found": entry.found,
-        "code": entry.code.removeprefix("gelpump.ledger."),
+        "verdict": entry.verdict,
+        "code": entry.code.removeprefix("gelpump.statements."),
     }
 
 

@@ -1,6 +1,6 @@
 """Figure 12: the pulse of water in the lumen."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,20 +19,20 @@ WITH_PREFACTOR = "V_max [k Pi_00/(mu_l L)]"
 GUIDE = {"color": style.GREY, "linewidth": 0.9, "linestyle": ":"}
 
 
-def draw(pulse: "xr.Dataset", published: Mapping) -> Figure:
+def draw(pulse: "xr.Dataset", published: Sequence[float]) -> Figure:
     """(a) Axial velocity along the lumen and (b) its maximum, both without the prefactor of
     eqn:lumen, as the paper plots them; (c) the maximum with it.
 
     pulse: a dataset of ``tube.lumen_pulse``; (a) ``V_plotted`` over ``Z`` for each ``tau``, (b)
     ``V_max_plotted`` over ``A``, (c) ``V_max`` over ``one_minus_ell``, of the tanh form, and
-    ``V_front_printed``, of the solved tubes at the last time.  published: read-off ``peak`` and
-    ``far`` in (a), one or none; ``product``, A times the maximum, drawn at each ``A`` in (b).
+    ``V_front_printed``, of the solved tubes at the last time.  published: heights of the curves of
+    (a), of the peak and far ahead, that were read off; not where along Z, so they mark the axis.
     """
     fig = style.figure(height=4.1)
     grid = fig.add_gridspec(2, 2)
     top, left, right = (fig.add_subplot(grid[cell]) for cell in ((0, slice(None)), (1, 0), (1, 1)))
     _pulses(fig, top, pulse, published)
-    _maximum(left, pulse, published)
+    _maximum(left, pulse)
     _with_prefactor(right, pulse)
     for ax, label in zip((top, left, right), "abc", strict=True):
         style.panel_label(ax, label)
@@ -48,43 +48,26 @@ def _pulses(fig, ax, pulse, published):
         columns = {Quantity.TAU: now, Quantity.AXIAL: pulse.Z, "V_without_prefactor [L]": V}
         style.tell(ax, "a", "axial velocity", columns)
     end = float(pulse.Z[-1])
-    marks = [(Z_C, height) for Z_C in pulse.Z_C.values for height in published["peak"]]
-    marks += [(end, height) for height in published["far"]]
     ax.plot(
-        [mark[0] for mark in marks],
-        [mark[1] for mark in marks],
-        label="published",
+        np.full(len(published), end),
+        published,
+        label="published height",
         clip_on=False,
         zorder=5,
-        **style.PUBLISHED_MARKER,
+        **style.PUBLISHED_MARKER | {"marker": "<"},
     )
-    columns = {
-        Quantity.AXIAL: [mark[0] for mark in marks],
-        "V_without_prefactor [L]": [mark[1] for mark in marks],
-    }
-    style.tell(ax, "a", "axial velocity published", columns)
+    style.tell(ax, "a", "axial velocity published", {"V_without_prefactor [L]": published})
     ax.set(xlim=(0.0, end), ylim=(0.0, 1.12 * float(pulse.V_plotted.max())))
     ax.set(xlabel="axial position $Z=z/L$", ylabel=f"{WITHOUT}\n(in $L$)")
     ax.set_title(rf"$A={float(pulse.drawn_A):g}/L$, without the prefactor {PREFACTOR}")
-    ax.legend(loc="upper right", handlelength=0.8)
+    ax.legend(loc="upper left", bbox_to_anchor=(0.26, 1.0), handlelength=0.8)
     style.steps(fig, ax, times, colours, r"time $\tau$ ($\mu_lL^2/k\Pi_{00}$)")
 
 
-def _maximum(ax, pulse, published):
+def _maximum(ax, pulse):
     A = pulse.A.values
     ax.plot(A, pulse.V_max_plotted, color=style.LENS, label="tanh form")
     style.tell(ax, "b", "tanh form", {Quantity.SHARPNESS: A, MAXIMUM: pulse.V_max_plotted})
-    for product in published["product"]:
-        ax.plot(
-            published["A"],
-            product / np.array(published["A"]),
-            label=rf"published, ${product:g}/A$",
-            zorder=5,
-            clip_on=False,
-            **style.PUBLISHED_MARKER,
-        )
-        drawn = {Quantity.SHARPNESS: published["A"], MAXIMUM: product / np.array(published["A"])}
-        style.tell(ax, "b", "published", drawn)
     _guide(ax, A, 2.2 * float(pulse.V_max_plotted[0] * A[0]), -1)
     ax.set(xscale="log", yscale="log", xlim=(A[0], A[-1]))
     ax.set(xlabel="sharpness $A$ (in $1/L$)", ylabel="maximum without\nprefactor (in $L$)")

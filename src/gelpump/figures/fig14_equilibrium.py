@@ -65,10 +65,10 @@ def _tell(fig, panel, name, gel, published, limits):
         ("stable equilibria", T[stable & drawn], phi[stable & drawn]),
         ("unstable equilibria", T[~stable & drawn], phi[~stable & drawn]),
         ("folds", *_folds(gel)),
-        ("T_C published", published, 0.0),
     ):
         columns = {Quantity.TEMPERATURE: temperatures, Quantity.POLYMER: fractions}
         style.tell(fig, panel, f"{what} of {name}", columns)
+    style.tell(fig, panel, f"T_C published of {name}", {Quantity.TEMPERATURE: published})
 
 
 def _curve(ax, gel):

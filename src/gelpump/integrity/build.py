@@ -81,7 +81,7 @@ class Build:
     @property
     def shown_digest(self) -> str:
         """Digest of what of the configuration decides which key numbers there are."""
-        return self.manifest["jobs"]["claims"]["config_digest"]
+        return self.manifest["jobs"]["statements"]["config_digest"]
 
 
 def _read(path: Path) -> Any:

@@ -6,17 +6,17 @@ Captions are the templates of ``workflow/report``, which Snakemake's own report 
 
 import json
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from gelpump.claims.table import counts, number
 from gelpump.report.figures import DRAWINGS
 from gelpump.report.notation import Text, from_plain, from_rst
-
-NOTHING = "–"
+from gelpump.statements import views
+from gelpump.statements.statement import APART, STATUSES
+from gelpump.statements.views import NOTHING, number, short
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Claim:
 
 @dataclass(frozen=True)
 class Disagreement:
-    """An entry of the ledger."""
+    """An entry of the ledger; verdict: which kind of disagreement it is."""
 
     id: str
     where: str
@@ -60,7 +60,7 @@ class Disagreement:
     measured: Text
     size: str
     allowed: str
-    found: bool
+    verdict: str
     code: str
     evidence: str
 
@@ -135,12 +135,15 @@ class Dataset:
 class Content:
     """Everything that page and article tell.
 
-    verdict: claims by status.  verification and cross_check: as in their JSON files.  code_digest:
+    verdict: claims by status, apart: those that no computation could contradict.  beyond: what is
+    stated beyond the paper.  verification and cross_check: as in their JSON files.  code_digest:
     of the code of all datasets.  packages: versions by name.  citation: the parsed CITATION.cff.
     """
 
     verdict: dict[str, int]
+    apart: dict[str, int]
     claims: list[Claim]
+    beyond: list[Claim]
     ledger: list[Disagreement]
     figures: list[Figure]
     verification_figure: Figure
@@ -163,9 +166,9 @@ class Content:
         ]
 
     @property
-    def disagreements(self) -> int:
-        """How many suspected disagreements were found."""
-        return sum(entry.found for entry in self.ledger)
+    def tested(self) -> int:
+        """How many statements a computation could contradict."""
+        return sum(self.verdict.values())
 
 
 def figure_numbers(where: str) -> Iterable[int]:
@@ -225,9 +228,11 @@ def gather(
     import gelpump
     from gelpump.provenance import digest, packages
 
-    claims = [
-        claim(rank, entry) for rank, entry in enumerate(_read(results / "claims.json"), start=1)
-    ]
+    judged = _read(results / "claims.json")
+    claims, beyond = (
+        [claim(rank, entry) for rank, entry in enumerate(entries, start=1)]
+        for entries in (judged, _read(results / "beyond.json"))
+    )
     ledger = [disagreement(entry) for entry in _read(results / "ledger.json")]
     times = _read(seconds) if seconds.exists() else {}
     key_numbers = _read(results / "tables/figure_numbers.json")
@@ -239,8 +244,10 @@ def gather(
         _dataset(Path(path), sha256) for path, sha256 in digests.items() if path.endswith(".nc")
     ]
     return Content(
-        verdict=counts(_read(results / "claims.json")),
+        verdict=views.counts(judged, STATUSES),
+        apart=views.counts(judged, APART),
         claims=claims,
+        beyond=beyond,
         ledger=ledger,
         verification_figure=drawn.pop("verification"),
         figures=list(drawn.values()),
@@ -263,7 +270,7 @@ def claim(rank: int, entry: Mapping[str, Any]) -> Claim:
         id=entry["id"],
         where=entry["where"],
         statement=from_plain(entry["statement"]),
-        published=_published(entry),
+        published=views.published(entry),
         computed=_computed(entry),
         measured=from_plain(entry["measured"].rstrip(": ")),
         deviation=entry["relative_difference"],
@@ -272,19 +279,13 @@ def claim(rank: int, entry: Mapping[str, Any]) -> Claim:
     )
 
 
-def _published(entry):
-    text = number(entry["published"])
-    drawn = entry["published_in_figure"]
-    return text if drawn is None else f"{text} (figure: {number(drawn)})"
-
-
 def _computed(entry):
     """The number, or for a statement whether it holds and the number that decided."""
     if isinstance(entry["computed"], bool) or entry["computed"] is None:
         holds = {True: "holds", False: "does not hold", None: ""}[entry["computed"]]
-        measure = number(entry["measure"], entry["uncertainty"]) if entry["measured"] else ""
-        return ": ".join(part for part in (holds, measure) if part) or NOTHING
-    return number(entry["computed"], entry["uncertainty"])
+        return ": ".join(filter(None, (holds, views.measure(entry)))) or NOTHING
+    text = number(entry["computed"], entry["uncertainty"])
+    return f"{text}; {views.measure(entry)}" if entry["measured"] else text
 
 
 def disagreement(entry: Mapping[str, Any]) -> Disagreement:
@@ -295,9 +296,9 @@ def disagreement(entry: Mapping[str, Any]) -> Disagreement:
         printed=from_plain(entry["printed"]),
         follows=from_plain(entry["follows"]),
         measured=from_plain(entry["measured"]),
-        size=numbers(entry["size"]),
-        allowed=numbers(entry["allowed"]),
-        found=entry["verdict"] == "disagreement",
+        size=short(entry["size"]),
+        allowed=short(entry["allowed"]),
+        verdict=entry["verdict"],
         code=entry["code"],
         evidence=entry["evidence"],
     )
@@ -311,11 +312,6 @@ def key_number(row: Mapping[str, Any]) -> KeyNumber:
         unit=from_plain(row["unit"]),
         source=row["source"],
     )
-
-
-def numbers(values: float | Sequence[float]) -> str:
-    """One number or several, to four digits."""
-    return ", ".join(f"{value:.4g}" for value in (values if isinstance(values, list) else [values]))
 
 
 def caption(template: str | Path, config: Mapping[str, Any], params: Mapping[str, Any]):

@@ -18,8 +18,10 @@ SHADES = 64
 STATUS_MEANING = {
     "reproduced": "within the printed digits and our uncertainty",
     "deviates": "not within them",
-    "inconsistent-in-paper": "the paper gives two values that differ",
+    "inconsistent-in-paper": "the paper gives two values, and ours is one of them",
     "qualitative": "nothing that a number could decide was published",
+    "identity": "follows from how the number is made",
+    "misprint": "a printed line that differs from its own derivation",
 }
 
 
@@ -97,11 +99,11 @@ def scientific(value: float) -> str:
 
 
 def source(code: str) -> str:
-    """The source of a function of the ledger, by its full name."""
+    """The source of a statement's function, by its full name."""
     import inspect
 
-    from gelpump.ledger import beads, materials, tubes
+    from gelpump.statements import beads, flows, materials, tubes
 
     module, _, function = code.rpartition(".")
-    found = {each.__name__: each for each in (beads, materials, tubes)}[module]
+    found = {each.__name__: each for each in (beads, flows, materials, tubes)}[module]
     return inspect.getsource(getattr(found, function)).rstrip()

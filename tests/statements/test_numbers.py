@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from gelpump.claims import figure_numbers
-from gelpump.claims.figure_numbers import KeyNumber, half_time
-from gelpump.claims.tubes import slope
+from gelpump.statements import numbers
+from gelpump.statements.numbers import KeyNumber, half_time
+from gelpump.statements.tubes import slope
 
 
 @pytest.mark.parametrize("count", [60, 120, 240])
@@ -20,7 +20,7 @@ def test_a_fold_is_located_by_its_curvature():
     def curve(phi):
         return 300.0 + 40.0 * (phi - 0.3) ** 2
 
-    error = figure_numbers._located(curve, 0.3)
+    error = numbers._located(curve, 0.3)
     assert curve(0.3 + 0.5 * error) == pytest.approx(300.0, abs=np.spacing(300.0))
     assert error == pytest.approx(np.sqrt(np.spacing(300.0) / 40.0), rel=0.05)
 
@@ -37,7 +37,7 @@ def test_a_power_is_as_uncertain_as_what_follows_it():
 def test_a_number_is_printed_to_its_uncertainty():
     record = KeyNumber("fig", "radius", [1.5, 2.0], [1e-3, 1e-9], "refinement", "file").record()
     assert record["printed"] == "1.500 ± 0.001, 2.00000"
-    page = figure_numbers.markdown([record])
+    page = numbers.markdown([record])
     assert page.count("\n| fig |") == 1
 
 

@@ -6,14 +6,16 @@ quadratures from these themselves.  What is derived from such numbers inherits i
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
 
-from gelpump.claims.beads import MODELS, spread
-from gelpump.claims.materials import fold_uncertainty, root_uncertainty
-from gelpump.claims.table import number
-from gelpump.claims.tubes import front_constant
+from gelpump.statements.beads import MODELS, bead, spread
+from gelpump.statements.materials import fold_uncertainty, root_uncertainty
+from gelpump.statements.tubes import front_constant
+from gelpump.statements.views import number
+from gelpump.tables import page
 from gelpump.tube import lumen
 from gelpump.tube.wall_flow import Wall
 from gelpump.uncertainty import rounding_error
@@ -59,10 +61,10 @@ class KeyNumber:
         }
 
 
-def key_numbers(data: Mapping, gels: Mapping, config: Mapping[str, Any]) -> Iterator[KeyNumber]:
-    """data: all datasets of the paper's figures; gels: energy-based ones, by name; config: its
-    blocks ``figures``, ``beads``, ``tube_flow`` and ``lumen_pulse``."""
-    figures, cases = config["figures"], config["beads"]
+def key_numbers(data: Mapping, gels: Mapping, config) -> Iterator[KeyNumber]:
+    """data: all datasets of the paper's figures; gels: energy-based ones, by name; config: has the
+    blocks ``figures``, ``beads``, ``tube_flow`` and ``lumen_pulse`` of the configuration."""
+    figures, cases = config.figures, config.beads
     yield from _deformed_bead(data, gels, cases, **figures["fig01_lens_schematic"])
     yield from _heated_gel(gels, **figures["fig02_osmotic_schema"])
     for figure in ("fig03_swell_bead", "fig04_dry_bead"):
@@ -74,8 +76,8 @@ def key_numbers(data: Mapping, gels: Mapping, config: Mapping[str, Any]) -> Iter
     yield from _fronts(data, figures["fig09_relax"]["ell"])
     for figure in ("fig10_flow", "fig11_flow_close"):
         for view in figures[figure]["views"]:
-            yield from _flow(data, figure, **config["tube_flow"][view])
-    yield from _pulse(data, config["lumen_pulse"])
+            yield from _flow(data, figure, **config.tube_flow[view])
+    yield from _pulse(data, config.lumen_pulse)
     for name in figures["fig13_osmotic"]["gels"]:
         yield from _equilibria(data, gels[name], name)
     for name in figures["fig14_equilibrium"]["gels"]:
@@ -84,20 +86,11 @@ def key_numbers(data: Mapping, gels: Mapping, config: Mapping[str, Any]) -> Iter
 
 def markdown(rows: Sequence[Mapping[str, Any]]) -> str:
     """A row a number, the figures in order."""
-    lines = [
-        "# Key numbers of the figures",
-        "",
-        f"{len(rows)} numbers, each to the digits that its numerical uncertainty leaves.",
-        "",
-        "| figure | quantity | value | unit | uncertainty from | evidence |",
-        "| --- | --- | --- | --- | --- | --- |",
-    ]
-    for row in rows:
-        cells = [
-            row[key] for key in ("figure", "quantity", "printed", "unit", "source", "evidence")
-        ]
-        lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
-    return "\n".join(lines) + "\n"
+    keys = {"value": "printed", "uncertainty from": "source"}
+    columns = "figure", "quantity", "value", "unit", "uncertainty from", "evidence"
+    intro = f"{len(rows)} numbers, each to the digits that its numerical uncertainty leaves."
+    getters = {name: itemgetter(keys.get(name, name)) for name in columns}
+    return page("Key numbers of the figures", intro, getters, rows)
 
 
 def _listed(values) -> str:
@@ -109,8 +102,7 @@ def _listed(values) -> str:
 
 def _refined_bead(data, case, model):
     """Production run and refinement on their common times; None where the run stopped at once."""
-    refined = data[f"refinement/bead_{case}_{model}"]
-    return (data[f"bead_{case}_{model}"].sel(t=refined.t), refined) if refined.t.size else None
+    return bead(data, case, model) if data[f"refinement/bead_{case}_{model}"].t.size else None
 
 
 def _deformed_bead(data, gels, cases, case: str, time: float) -> Iterator[KeyNumber]:
@@ -428,5 +420,5 @@ def _pulse(data, settings: Mapping) -> Iterator[KeyNumber]:
     doubt = float((pulse.A * pulse.V_max_plotted_uncertainty).max())
     yield KeyNumber(
         figure, "A V_max without the prefactor, mean over A", float(product.mean()),
-        float(np.ptp(product)) + doubt, INTEGRATED, "data/lumen_pulse.nc: V_max_plotted", "1/T",
+        doubt, INTEGRATED, "data/lumen_pulse.nc: V_max_plotted", "1/T",
     )  # fmt: skip

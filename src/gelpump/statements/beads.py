@@ -1,0 +1,213 @@
+"""Swelling and drying beads (section 2.1)."""
+
+from functools import partial
+
+import numpy as np
+
+from gelpump.statements.statement import Collection, Computed, holds
+from gelpump.uncertainty import convergence_index, rounding_error
+
+statements = Collection()
+MODELS = {"nonlinear": "fully nonlinear", "lens": "LENS"}
+VERBS = {"swelling": ("swell", "figure 3"), "drying": ("dry", "figure 4")}
+
+
+def bead(e_data, case: str, model: str):
+    """Production run and refinement of a bead, on their common times."""
+    refined = e_data[f"refinement/bead_{case}_{model}"]
+    return e_data[f"bead_{case}_{model}"].sel(t=refined.t), refined
+
+
+def spread(levels: np.ndarray) -> np.ndarray:
+    """Uncertainty of level 0, from the mesh (levels 1, 2) and the time tolerance (3, 4)."""
+    space = convergence_index(levels[1], levels[0], levels[2])
+    return space + convergence_index(levels[3], levels[0], levels[4])
+
+
+def radius(e, case: str, model: str) -> Computed | None:
+    """Radius at the times at which the paper's curves were read, if there are any."""
+    if not (times := e.cases[case]["published_times"]):
+        return None
+    at = {"t": times, "method": "nearest"}
+    run, refined = bead(e.data, case, model)
+    solved, doubt = run.radius.sel(**at).values, refined.radius_uncertainty.sel(**at).values
+    follows = ""
+    if model == "lens":
+        verb = VERBS[case][0]
+        nonlinear, drawn = e.read(f"{verb}-radius-nonlinear"), e.read(f"{verb}-radius-lens")
+        follows = (
+            f"LENS is drawn up to {np.abs(drawn - nonlinear).max():.3g} away from the nonlinear "
+            f"radius; its stated equations are within {np.abs(nonlinear - solved).max():.2g} of "
+            "it; the cause is unknown"
+        )
+    return Computed(solved, doubt, follows=follows)
+
+
+for _case, (_verb, _figure) in VERBS.items():
+    for _model, _name in MODELS.items():
+        statements.states(
+            f"{_verb}-radius-{_model}",
+            f"{_figure}a",
+            f"data/bead_{_case}_{_model}.nc: radius",
+            text=f"{_name} radius a/R_dry during {_case}, at the times where it was read",
+        )(partial(radius, case=_case, model=_model))
+
+
+@statements.states(
+    "swell-lens-slower", "section 2.1", "data/bead_swelling_{lens,nonlinear}.nc: radius"
+)
+def lens_swells_slower(e):
+    """The LENS radius stays below the nonlinear one while the bead swells."""
+    (lens, of_lens), (nonlinear, of_nonlinear) = (
+        bead(e.data, "swelling", m) for m in ("lens", "nonlinear")
+    )
+    started = lens.t > 0
+    ahead = (lens.radius - nonlinear.radius).values[started]
+    doubt = (of_lens.radius_uncertainty + of_nonlinear.radius_uncertainty).values[started]
+    ends = [int(np.argmin(ahead)), int(np.argmax(ahead))]
+    return Computed(
+        holds(float(np.min(-ahead - doubt)), 0.0),
+        doubt[ends],
+        ahead[ends],
+        "smallest and largest LENS radius minus nonlinear radius, R_dry:",
+        f"LENS is ahead at first, by most at t_BMJ = {float(lens.t[started][ends[1]]):.2g}",
+    )
+
+
+def _crossing(t, y, level: float, start: int, step: int) -> float:
+    """Where y, followed from index ``start`` in steps of +1 or -1, first rises through level."""
+    i = start
+    while y[i + step] < level:
+        i += step
+    share = (level - y[i]) / (y[i + step] - y[i])
+    return float(t[i] + share * (t[i + step] - t[i]))
+
+
+def plateau(t: np.ndarray, radius: np.ndarray) -> list[float]:
+    """Interval around the slowest drying in which |da/dt| is below the mean of the whole course.
+
+    The course ends when 99 % of the change is done; the mean rate is taken up to there.
+    """
+    rate = -np.gradient(radius, t)
+    done = (radius[0] - radius) / (radius[0] - radius[-1])
+    end = int(np.argmax(done >= 0.99))
+    mean = (radius[0] - radius[end]) / t[end]
+    fastest_late = int(np.argmax(np.where((done > 0.5) & (done < 0.99), rate, -np.inf)))
+    slowest = int(np.argmin(np.where(np.arange(t.size) < fastest_late, rate, np.inf)))
+    return [_crossing(t, rate, mean, slowest, -1), _crossing(t, rate, mean, slowest, +1)]
+
+
+def steepest(t: np.ndarray, gradient: np.ndarray, after: float) -> float:
+    """Time, past ``after``, of the largest gradient: top of the parabola through three points."""
+    late = int(np.argmax(np.where(t > after, gradient, -np.inf)))
+    nearby = slice(late - 1, late + 2)
+    a, b, _ = np.polyfit(t[nearby] - t[late], gradient[nearby], 2)
+    return float(t[late] - b / (2 * a))
+
+
+@statements.states("dry-plateau", "section 2.1", "data/bead_drying_lens.nc: radius")
+def drying_plateau(e):
+    """Drying slows down between these times (LENS: |da/dt| below its mean over the course)."""
+    run, refined = bead(e.data, "drying", "lens")
+    found = np.array([plateau(run.t.values, level) for level in refined.radius.values])
+    return Computed(found[0], spread(found))
+
+
+@statements.states("dry-steep-at-5", "section 2.1", "data/bead_drying_lens.nc: steepest_gradient")
+def steepest_drying(e):
+    """Polymer-fraction gradients, past the initial jump, are largest at this time (LENS)."""
+    run, refined = bead(e.data, "drying", "lens")
+    peaks = [steepest(run.t.values, level, 1.0) for level in refined.steepest_gradient.values]
+    return Computed(peaks[0], spread(np.array(peaks)))
+
+
+def _never_negative(e, case: str) -> Computed:
+    run, refined = bead(e.data, case, "lens")
+    worst = int(np.argmin(run.smallest_diffusivity.values))
+    margin = float(run.smallest_diffusivity[worst])
+    doubt = float(refined.smallest_diffusivity_uncertainty[worst])
+    return Computed(holds(margin, doubt), doubt, margin, "smallest D, in k mu_s/mu_l:")
+
+
+SPINODAL = "section 2.1.1, figure 5"
+
+
+@statements.states(
+    "swelling-avoids-spinodal", SPINODAL, "data/bead_swelling_lens.nc: smallest_diffusivity"
+)
+def swelling_avoids_the_spinodal(e):
+    """On the path 308 to 304 K the diffusivity is never negative."""
+    return _never_negative(e, "swelling")
+
+
+@statements.states(
+    "drying-3076-avoids-spinodal", SPINODAL, "data/bead_drying_lens.nc: smallest_diffusivity"
+)
+def drying_avoids_the_spinodal(e):
+    """On the path 304 to 307.6 K the diffusivity is never negative."""
+    return _never_negative(e, "drying")
+
+
+@statements.states(
+    "drying-308-enters-spinodal", SPINODAL, "data/bead_separating_lens.nc: stopped_t"
+)
+def drying_enters_the_spinodal(e):
+    """On the path 304 to 308 K the diffusivity turns negative."""
+    if "stopped_t" not in e.data["bead_separating_lens"].attrs:
+        return Computed(False, None)
+    refined = e.data["refinement/bead_separating_lens"]
+    doubt = float(refined.stop_time_uncertainty)
+    return Computed(True, doubt, float(refined.stop_time[0]), "at t_BMJ =")
+
+
+@statements.states(
+    "negative-D-separates",
+    "section 2.1.1",
+    "data/bead_separating_nonlinear.nc: stopped_polymer_fraction",
+)
+def separation_criterion(e):
+    """Phases separate where D < 0, also in the fully nonlinear model (304 to 308 K)."""
+    stopped, gel = e.data["bead_separating_nonlinear"].attrs, e.gels["HHT"]
+    known = stopped["stopped_polymer_fraction"], stopped["temperature"]
+
+    def diffusivity(phi, T):
+        return gel.diffusivity(phi, T) / gel.shear_modulus(1.0)
+
+    D, doubt = float(diffusivity(*known)), float(rounding_error(diffusivity, *known))
+    lens = e.data["bead_separating_lens"].attrs.get("stopped_t", np.nan)
+    return Computed(
+        not holds(D, doubt),
+        doubt,
+        D,
+        "LENS's D where the nonlinear model is no longer parabolic, in k mu_s/mu_l:",
+        f"the nonlinear model stops at t_BMJ = {stopped['stopped_t']:.2g}, phi = {known[0]:.3f}, "
+        f"LENS at {lens:.3g}",
+    )
+
+
+@statements.states(
+    "printed-digits-of-table-2", "table 2, figure 4", "data/sensitivity_drying.nc: radius_change"
+)
+def printed_digits(e):
+    """The parameters are printed to the digits that figure 4 needs: half a unit of the last one
+    moves its last radius by less than it can be read to."""
+    change = e.data["sensitivity_drying"].radius_change
+    last = max(e.cases["drying"]["published_times"], default=e.cases["drying"]["end"])
+    half = np.abs(change.sel(t=last, method="nearest"))
+    readable = float(np.min(e.published["dry-radius-nonlinear"]["resolution"]))
+    names = half.parameter_name.values
+    return Computed(
+        holds(readable - float(half.max()), 0.0),
+        1e-2 * half.values,  # a difference of two runs, to one part in a hundred
+        half.values,
+        f"change of the radius at t_BMJ = {last:g} for half a unit of {', '.join(names)}:",
+        f"drying passes so near the spinodal's tip that {names[int(np.argmax(half.values))]} "
+        f"alone moves it by {float(half.max()):.2g}, to first order",
+    )
+
+
+@statements.states("lens-cheaper", "sections 1 and 4", "docs/performance.md")
+def cheaper(e):
+    """LENS predicts faster than the nonlinear model: time is a matter of the machine, and is
+    compared with one integrator on one machine in docs/performance.md."""
+    return Computed(None, None)

@@ -1,0 +1,268 @@
+"""Deswelling, heat and the drying front of tubes (sections 3.3 to 3.6)."""
+
+import numpy as np
+
+from gelpump.statements.derivations import (
+    edge_coefficient,
+    heat_front,
+    radial_term,
+    refined,
+    wall_time,
+)
+from gelpump.statements.statement import IDENTITY, LINE, Collection, Computed, holds
+from gelpump.uncertainty import rounding_error
+
+statements = Collection()
+DRAWN_ELL = [0.1, 0.25, 0.5, 0.75, 0.9]  # the tubes of figure 9
+FOR_ELL = "for ell = " + ", ".join(f"{ell:g}" for ell in DRAWN_ELL)
+MAP = "data/deswelling_map.nc: tau99"
+
+
+def slope(x, y, relative_error=0.0) -> tuple[float, float]:
+    """d ln y / d ln x by least squares, and the most that errors of y, of any sign, make of it.
+
+    The rounding of y and of logarithms adds to relative_error, a number or one for each y.
+    """
+    ln_x, ln_y = np.log(np.asarray(x)), np.log(np.asarray(y))
+    leverage = (ln_x - ln_x.mean()) / ((ln_x - ln_x.mean()) ** 2).sum()
+    rounding = np.spacing(np.abs(ln_x)) + np.spacing(np.abs(ln_y)) + np.finfo(float).eps
+    return float(leverage @ ln_y), float(np.abs(leverage) @ (np.asarray(relative_error) + rounding))
+
+
+def relative(dataset, *names: str) -> float:
+    """Largest relative uncertainty of a variable, of a product or of a quotient of several."""
+
+    def of(name):
+        values = dataset[name].isel(level=0) if "level" in dataset[name].dims else dataset[name]
+        return float((dataset[f"{name}_uncertainty"] / abs(values)).max())
+
+    return sum(map(of, names))
+
+
+def of_figure(dataset, **at):
+    """The tubes of figure 9, at a time if one is given."""
+    dataset = dataset.sel(ell=DRAWN_ELL, method="nearest")
+    return dataset.sel(**at, method="nearest") if at else dataset
+
+
+@statements.states("tpore-scaling", "section 3", f"{MAP}_compared", IDENTITY)
+def poroelastic_time(e):
+    """The response time scales as this power of the length: the equations have no other one."""
+    table = e.data["deswelling_map"]
+    return Computed(
+        *slope(1.0 - table.ell, table.tau99_compared, relative(table, "tau99_compared"))
+    )
+
+
+RESOLVED = "gelpump.statements.derivations.wall_time: eqn:tube_evolution across the wall"
+
+
+@statements.states("radial-adjustment-thin", "section 3.6", RESOLVED)
+def thin_walls(e):
+    """The deswelling time scales as this power of 1 - ell."""
+    ell, gel = np.array([0.25, 0.5, 0.75, 0.9]), e.gels["tube"]
+    times, doubts = refined(lambda n: [wall_time(gel, each, n) for each in ell], 8)
+    printed = e.data["deswelling_map"].tau99_compared.sel(ell=0.5) / e.tube["eps"] ** 2
+    return Computed(
+        *slope(1.0 - ell, times, doubts / times),
+        float(times[1] / printed),
+        "tau_99 of the resolved wall over that of eqn:tube_model, ell = 0.5:",
+    )
+
+
+def _falls(e, name: str, axis: int) -> Computed:
+    table = e.data["deswelling_map"]
+    values = np.log(table[name].transpose("M", ...).values)
+    margin, doubt = float(np.min(-np.diff(values, axis=axis))), 2.0 * relative(table, name)
+    return Computed(
+        holds(margin, doubt), doubt, margin, "smallest relative fall of tau_99 between neighbours:"
+    )
+
+
+@statements.states("faster-with-contrast", "section 3.4", f"{MAP}_contrast")
+def faster_with_contrast(e):
+    """A gel with a larger Phi_inf deswells faster, for every M of the map."""
+    return _falls(e, "tau99_contrast", 1)
+
+
+@statements.states("faster-with-M", "section 3.4, figure 7a", MAP)
+def faster_with_stiffness(e):
+    """A stiffer gel (larger M) deswells faster, for every Pi~ of the map."""
+    return _falls(e, "tau99", 0)
+
+
+@statements.states("faster-with-Pi", "section 3.4, figure 7a", MAP)
+def faster_with_pressure(e):
+    """A gel with a larger Pi~ deswells faster, for every M of the map."""
+    return _falls(e, "tau99", 1)
+
+
+@statements.states("deswelling-curves", "figure 7b", "data/deswelling_curves.nc: Phi1")
+def deswelling_curves(e):
+    """Phi_1 at tau = 1e-4 for ell = 0.01, 0.1, 0.25, 0.5."""
+    curves = e.data["deswelling_curves"]
+    drawn = curves.sel(ell=[0.01, 0.1, 0.25, 0.5]).sel(tau=1e-4, method="nearest")
+    return Computed(drawn.Phi1.values, drawn.Phi1_uncertainty.values)
+
+
+HEAT = "gelpump.statements.derivations.heat_front: eqn:temp_field, data/tube_pulse.nc: Z_C"
+
+
+@statements.states("front-position", "section 3.5", HEAT)
+def front_position(e):
+    """Z_C / sqrt(Le tau) of the deswelling front."""
+    pulse = e.data["tube_pulse"]
+    used = float((pulse.Z_C / np.sqrt(pulse.Le * pulse.tau))[0])
+    value, doubt = refined(heat_front, 160)
+    return Computed(value, doubt, used, "that of the tubes:")
+
+
+def front_constant(pulse) -> tuple[float, float]:
+    """Z_C / sqrt(Le tau), and its uncertainty: how far solved fronts are from where the stated
+    temperature is that of the transition, and rounding."""
+
+    def scaled(Z_C, Le, tau):
+        return Z_C / np.sqrt(Le * tau)
+
+    first = float(pulse.Z_C[0]), float(pulse.Le), float(pulse.tau[0])
+    missed = float((pulse.front_error / pulse.Z_C).max()) * scaled(*first)
+    return float(scaled(*first)), missed + float(rounding_error(scaled, *first))
+
+
+@statements.states("front-fig8", "figure 8", "data/tube_pulse.nc: Z_C")
+def drawn_front(e):
+    """Position of the front at tau = 0.025 and 0.05."""
+    pulse = e.data["tube_pulse"]
+    Z_C, (constant, doubt) = (
+        pulse.Z_C.sel(tau=[0.025, 0.05], method="nearest").values,
+        front_constant(pulse),
+    )
+    share = float((e.read("front-fig8") / Z_C).mean())
+    follows = f"drawn at {share:.2f} of Z_C, as if a domain of length 1.5 were labelled 0 to 1"
+    return Computed(Z_C, doubt / constant * Z_C, follows=follows)
+
+
+@statements.states("lewis-number", "section 3.5", "config: scales", IDENTITY)
+def lewis_number(e):
+    """Thermal over compositional diffusivity, from their typical values in the same sentence."""
+    known = e.scales["thermal_diffusivity"], e.scales["compositional_diffusivity"]
+    return Computed(np.divide(*known), float(rounding_error(np.divide, *known)))
+
+
+@statements.states("tanh-form", "eqn:tanh_fit", "data/front_fit.nc: Phi1_front, fit_rms")
+def tanh_form(e):
+    """Phi_1 around the front is a tanh, and so halfway between 1 and Phi_inf at Z_C."""
+    fit, middle = e.data["front_fit"], float(1.0 + e.data["tube_pulse"].Phi_inf[0]) / 2.0
+    solved = of_figure(fit).Phi1_front.values
+    doubt = float(e.data["refinement/tube_pulse"].Phi1_front_uncertainty.max())
+    return Computed(
+        solved,
+        np.full(solved.shape, doubt),
+        float(fit.fit_rms.max()),
+        "largest misfit of the best tanh in the root mean square:",
+        f"Phi_1 at Z_C is {solved.min():.3f} to {solved.max():.3f}: the front is not symmetric",
+        {"value": middle, "resolution": 0.0},
+    )
+
+
+@statements.states("front-phi", "figure 9a", "data/front_fit.nc: Phi1_front")
+def polymer_fraction_at_the_front(e):
+    """Phi_1 at Z_C for ell = 0.25, 0.5."""
+    doubt = e.data["refinement/tube_pulse"].Phi1_front_uncertainty.max("tau")
+    here = {"ell": [0.25, 0.5], "method": "nearest"}
+    return Computed(e.data["front_fit"].Phi1_front.sel(**here).values, doubt.sel(**here).values)
+
+
+@statements.states("A-values", "figure 9b", "data/front_fit.nc: A", text=f"A(ell) {FOR_ELL}")
+def sharpness(e):
+    """A(ell) at the time of figure 9."""
+    fit, solved = e.data["front_fit"], of_figure(e.data["front_fit"])
+    scaled = (fit.A * (1.0 - fit.ell)).values
+    follows = (
+        f"converged, A is {float(solved.A[-1]):.1f} at ell = {DRAWN_ELL[-1]:g}, and A (1-ell) is "
+        f"constant to {float(np.ptp(scaled) / scaled.mean()):.1%}"
+    )
+    return Computed(solved.A.values, solved.A_uncertainty.values, follows=follows)
+
+
+@statements.states("A-exponent", "section 3.6, figure 9b", "data/front_fit.nc: exponent")
+def sharpness_law(e):
+    """Power of 1 - ell that A(ell) follows; the figure has that of the points which it draws."""
+    fit, drawn = e.data["front_fit"], e.published["A-values"]
+    share = np.divide(drawn["resolution"], drawn["value"])
+    power, read = slope(1.0 - np.array(DRAWN_ELL), drawn["value"], share)
+    follows = (
+        "the law holds better than the figure shows: Phi_1 depends on Z/w and tau/w^2 only, "
+        "w = eps (1-ell)/4, so that it is exact for w small against Z_C"
+    )
+    paper = {"drawn": power, "drawn_resolution": read}
+    return Computed(
+        -float(fit.exponent), float(fit.exponent_uncertainty), follows=follows, paper=paper
+    )
+
+
+@statements.states("travelling-wave", "section 3.6", "data/front_fit.nc: profile_change")
+def travelling_wave(e):
+    """The profile around Z_C keeps its shape while tau grows (ell = 0.25, from the time of figure
+    9)."""
+    fit = e.data["front_fit"].sel(ell=0.25, method="nearest")
+    doubt = e.data["refinement/tube_pulse"].Phi1_difference.sel(ell=0.25, method="nearest").max()
+    change = fit.profile_change.where(fit.tau >= fit.fit_tau, drop=True).max()
+    return Computed(
+        None, float(doubt), float(change), "largest change of Phi_1 at the same Z - Z_C:"
+    )
+
+
+@statements.states(
+    "phi1-near-equilibrium", "section 3.3, appendix B", "data/front_fit.nc: departure_front"
+)
+def closeness_to_equilibrium(e):
+    """Phi_1 is everywhere close to Phi_0, to order eps^2, as the scaling needs."""
+    fit, pulse = e.data["front_fit"], e.data["tube_pulse"]
+    departure = of_figure(fit, tau=float(fit.fit_tau)).departure_front.values
+    doubt = float(e.data["refinement/tube_pulse"].Phi1_front_uncertainty.max())
+    return Computed(
+        not holds(float(departure.max()) - float(pulse.eps[0]) ** 2, doubt),
+        np.full(departure.shape, doubt),
+        departure,
+        f"largest |Phi_0 - Phi_1| {FOR_ELL}:",
+        f"at the front it is {departure.min():.2f} to {departure.max():.2f} away",
+    )
+
+
+@statements.states(
+    "radial-structure",
+    "eqn:phi2, eqn:tube_model",
+    "gelpump.statements.derivations.edge_coefficient",
+    LINE,
+)
+def radial_structure(e):
+    """F holds 16, from a Phi_2 that is said to be of the form R^2, ln R, 1 and to meet the
+    conditions on midline and edges."""
+    kappa, doubt = np.transpose([edge_coefficient(ell) for ell in DRAWN_ELL])
+    follows = (
+        f"the conditions give {kappa[0]:.2f} to {kappa[-1]:.4f} {FOR_ELL}, tending to 8 for thin "
+        "walls; the printed square has 8 too in the mean over the wall.  Times are twice as long"
+    )
+    return Computed(kappa, doubt, follows=follows, paper={"value": 16.0, "resolution": 0.0})
+
+
+@statements.states(
+    "scaled-equation", "eqn:evolution_scaled", "gelpump.statements.derivations.radial_term", LINE
+)
+def scaled_equation(e):
+    """The radial term is (1/R) [R D dphi_2/dR], which for D phi_2 = R^2/4 ought to be the f = 1 of
+    the line beneath; here on the edges and the midline."""
+    R, D = np.array([0.25, 0.625, 1.0]), float(e.gels["tube"].diffusivity(1.0, 1.0))
+
+    def phi_2(R):
+        return R**2 / (4.0 * D)
+
+    value, doubt = refined(lambda n: radial_term(D, phi_2, R, n), 8)
+    printed = R * D * (phi_2(R + 0.125) - phi_2(R - 0.125)) / 0.25 / R  # exact for a square
+    return Computed(
+        value,
+        doubt + 1e-12,
+        follows="a d/dR is missing in front of the bracket",
+        paper={"value": printed, "resolution": 0.0},
+    )

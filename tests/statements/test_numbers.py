@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gelpump.statements import numbers
-from gelpump.statements.numbers import KeyNumber, half_time
+from gelpump.statements.numbers import half_time, row
 from gelpump.statements.tubes import slope
 
 
@@ -35,7 +35,8 @@ def test_a_power_is_as_uncertain_as_what_follows_it():
 
 
 def test_a_number_is_printed_to_its_uncertainty():
-    record = KeyNumber("fig", "radius", [1.5, 2.0], [1e-3, 1e-9], "refinement", "file").record()
+    record = row("fig", "radius", [1.5, 2.0], [1e-3, 1e-9], "refinement", "fit: A")
+    assert record["evidence"] == "data/fit.nc: A"
     assert record["printed"] == "1.500 ± 0.001, 2.00000"
     page = numbers.markdown([record])
     assert page.count("\n| fig |") == 1
@@ -43,4 +44,4 @@ def test_a_number_is_printed_to_its_uncertainty():
 
 def test_a_number_that_is_not_finite_is_an_error():
     with pytest.raises(ValueError, match="fig, radius"):
-        KeyNumber("fig", "radius", np.nan, 0.0, "refinement", "file").record()
+        row("fig", "radius", np.nan, 0.0, "refinement", "file")

@@ -101,6 +101,7 @@ def tubes():
     fit = solved("ell", A=30.0 / THIN, Phi1_front=1.5)
     fit["fit_rms"] = ("ell", np.full(ELL.size, 1e-3))
     fit["exponent"], fit["exponent_uncertainty"], fit["fit_tau"] = 1.0, 1e-4, 0.01
+    fit["prefactor"], fit["in_power_law"] = 30.0, ("ell", ELL > 0.05)
     fit = fit.assign_coords(tau=TAU)
     for name, value in (("profile_change", 1e-3), ("departure_front", 5e-3)):
         fit[name] = (("ell", "tau"), value * one)

@@ -23,7 +23,7 @@ with job(snakemake):
     claims = list(paper.statements.records(evidence))
     ledger = views.ledger(claims)
     further = list(beyond.statements.records(evidence))
-    shown = [each.record() for each in numbers.key_numbers(evidence.data, gels, params)]
+    shown = list(numbers.key_numbers(evidence.data, gels, params))
     for records, file in (
         (claims, output.claims),
         (ledger, output.ledger),

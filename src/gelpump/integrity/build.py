@@ -74,9 +74,17 @@ class Build:
         return data, problems
 
     def figure_numbers(self) -> list[dict[str, Any]]:
-        """The key numbers of the figures; none if they are not there."""
-        path = RESULTS / "tables/figure_numbers.json"
-        return _read(path) if path.exists() else []
+        """The numbers of the figures and of the statements; none of a file that is not there."""
+        shown, claims = (
+            _read(path) if path.exists() else []
+            for path in (RESULTS / "tables/figure_numbers.json", RESULTS / "claims.json")
+        )
+        return shown + [
+            {"figure": "statement", "quantity": each["id"], "value": each["computed"]}
+            | {"uncertainty": each["uncertainty"]}
+            for each in claims
+            if isinstance(each["computed"], float | list)
+        ]
 
     @property
     def shown_digest(self) -> str:

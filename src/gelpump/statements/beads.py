@@ -8,6 +8,7 @@ from gelpump.statements.statement import Collection, Computed, holds
 from gelpump.uncertainty import convergence_index, rounding_error
 
 statements = Collection()
+states = statements.states
 MODELS = {"nonlinear": "fully nonlinear", "lens": "LENS"}
 VERBS = {"swelling": ("swell", "figure 3"), "drying": ("dry", "figure 4")}
 
@@ -45,17 +46,15 @@ def radius(e, case: str, model: str) -> Computed | None:
 
 for _case, (_verb, _figure) in VERBS.items():
     for _model, _name in MODELS.items():
-        statements.states(
+        states(
             f"{_verb}-radius-{_model}",
             f"{_figure}a",
-            f"data/bead_{_case}_{_model}.nc: radius",
+            f"bead_{_case}_{_model}: radius",
             text=f"{_name} radius a/R_dry during {_case}, at the times where it was read",
         )(partial(radius, case=_case, model=_model))
 
 
-@statements.states(
-    "swell-lens-slower", "section 2.1", "data/bead_swelling_{lens,nonlinear}.nc: radius"
-)
+@states("swell-lens-slower", "section 2.1", "bead_swelling_{lens,nonlinear}: radius")
 def lens_swells_slower(e):
     """The LENS radius stays below the nonlinear one while the bead swells."""
     (lens, of_lens), (nonlinear, of_nonlinear) = (
@@ -105,7 +104,7 @@ def steepest(t: np.ndarray, gradient: np.ndarray, after: float) -> float:
     return float(t[late] - b / (2 * a))
 
 
-@statements.states("dry-plateau", "section 2.1", "data/bead_drying_lens.nc: radius")
+@states("dry-plateau", "section 2.1", "bead_drying_lens: radius")
 def drying_plateau(e):
     """Drying slows down between these times (LENS: |da/dt| below its mean over the course)."""
     run, refined = bead(e.data, "drying", "lens")
@@ -113,7 +112,7 @@ def drying_plateau(e):
     return Computed(found[0], spread(found))
 
 
-@statements.states("dry-steep-at-5", "section 2.1", "data/bead_drying_lens.nc: steepest_gradient")
+@states("dry-steep-at-5", "section 2.1", "bead_drying_lens: steepest_gradient")
 def steepest_drying(e):
     """Polymer-fraction gradients, past the initial jump, are largest at this time (LENS)."""
     run, refined = bead(e.data, "drying", "lens")
@@ -132,25 +131,19 @@ def _never_negative(e, case: str) -> Computed:
 SPINODAL = "section 2.1.1, figure 5"
 
 
-@statements.states(
-    "swelling-avoids-spinodal", SPINODAL, "data/bead_swelling_lens.nc: smallest_diffusivity"
-)
+@states("swelling-avoids-spinodal", SPINODAL, "bead_swelling_lens: smallest_diffusivity")
 def swelling_avoids_the_spinodal(e):
     """On the path 308 to 304 K the diffusivity is never negative."""
     return _never_negative(e, "swelling")
 
 
-@statements.states(
-    "drying-3076-avoids-spinodal", SPINODAL, "data/bead_drying_lens.nc: smallest_diffusivity"
-)
+@states("drying-3076-avoids-spinodal", SPINODAL, "bead_drying_lens: smallest_diffusivity")
 def drying_avoids_the_spinodal(e):
     """On the path 304 to 307.6 K the diffusivity is never negative."""
     return _never_negative(e, "drying")
 
 
-@statements.states(
-    "drying-308-enters-spinodal", SPINODAL, "data/bead_separating_lens.nc: stopped_t"
-)
+@states("drying-308-enters-spinodal", SPINODAL, "bead_separating_lens: stopped_t")
 def drying_enters_the_spinodal(e):
     """On the path 304 to 308 K the diffusivity turns negative."""
     if "stopped_t" not in e.data["bead_separating_lens"].attrs:
@@ -160,10 +153,8 @@ def drying_enters_the_spinodal(e):
     return Computed(True, doubt, float(refined.stop_time[0]), "at t_BMJ =")
 
 
-@statements.states(
-    "negative-D-separates",
-    "section 2.1.1",
-    "data/bead_separating_nonlinear.nc: stopped_polymer_fraction",
+@states(
+    "negative-D-separates", "section 2.1.1", "bead_separating_nonlinear: stopped_polymer_fraction"
 )
 def separation_criterion(e):
     """Phases separate where D < 0, also in the fully nonlinear model (304 to 308 K)."""
@@ -185,9 +176,7 @@ def separation_criterion(e):
     )
 
 
-@statements.states(
-    "printed-digits-of-table-2", "table 2, figure 4", "data/sensitivity_drying.nc: radius_change"
-)
+@states("printed-digits-of-table-2", "table 2, figure 4", "sensitivity_drying: radius_change")
 def printed_digits(e):
     """The parameters are printed to the digits that figure 4 needs: half a unit of the last one
     moves its last radius by less than it can be read to."""
@@ -206,7 +195,7 @@ def printed_digits(e):
     )
 
 
-@statements.states("lens-cheaper", "sections 1 and 4", "docs/performance.md")
+@states("lens-cheaper", "sections 1 and 4", "docs/performance.md")
 def cheaper(e):
     """LENS predicts faster than the nonlinear model: time is a matter of the machine, and is
     compared with one integrator on one machine in docs/performance.md."""

@@ -3,18 +3,17 @@
 import numpy as np
 
 from gelpump.statements.statement import IDENTITY, LINE, Collection, Computed, holds
-from gelpump.statements.tubes import DRAWN_ELL, FOR_ELL, of_figure, relative, slope
+from gelpump.statements.tubes import DRAWN_ELL, FOR_ELL, of_figure, of_prefactor, relative, slope
 from gelpump.uncertainty import rounding_error
 
 statements = Collection()
-PULSE = "data/lumen_pulse.nc"
+states = statements.states
+PULSE = "lumen_pulse"
 LATE = 0.1  # tau
 
 
-@statements.states(
-    "flow-out-behind-in-ahead",
-    "section 3.6.1, figures 10, 11",
-    "data/water_budget.nc: outer_rate_printed",
+@states(
+    "flow-out-behind-in-ahead", "section 3.6.1, figures 10, 11", "water_budget: outer_rate_printed"
 )
 def direction_of_flow(e):
     """Water leaves through the outer wall behind the front and enters ahead of it."""
@@ -28,10 +27,8 @@ def direction_of_flow(e):
     )
 
 
-@statements.states(
-    "radial-dominates-thin",
-    "section 3.6.1, figure 11",
-    "data/water_budget.nc: radial_to_axial_velocity",
+@states(
+    "radial-dominates-thin", "section 3.6.1, figure 11", "water_budget: radial_to_axial_velocity"
 )
 def radial_dominance(e):
     """Radial velocities dominate axial ones more in the thinner wall."""
@@ -47,10 +44,10 @@ def radial_dominance(e):
     )
 
 
-@statements.states(
+@states(
     "interstitial-velocity",
     "eqn:ug, section 3.6.2",
-    "data/tube_flow_whole.nc: polymer_fraction, u_r_without_Phi1",
+    "tube_flow_whole: polymer_fraction, u_r_without_Phi1",
     LINE,
 )
 def interstitial_factor(e):
@@ -79,16 +76,14 @@ def interstitial_factor(e):
     )
 
 
-@statements.states("figure-10-ell", "figure 10", "config: published", LINE)
+@states("figure-10-ell", "figure 10", "config: published", LINE)
 def tube_of_figure_10(e):
     """Figure 10 shows the tube of its caption; computed is what it draws."""
     read = e.published["figure-10-ell"]
     return Computed(read["drawn"], read["drawn_resolution"], follows="another tube is drawn")
 
 
-@statements.states(
-    "lumen-peak-at-front", "section 3.6.2, figure 12a", f"{PULSE}: Z_highest_printed"
-)
+@states("lumen-peak-at-front", "section 3.6.2, figure 12a", f"{PULSE}: Z_highest_printed")
 def place_of_the_peak(e):
     """The axial velocity of eqn:lumen is largest at Z_C, in every solved tube."""
     offset = float(np.abs(e.data["lumen_pulse"].Z_highest_printed).max())
@@ -102,19 +97,19 @@ def _plotted(e, name: str) -> Computed:
     return Computed(float(at[name]), float(at[f"{name}_uncertainty"]))
 
 
-@statements.states("lumen-peak-height", "section 3.6.2, figure 12a", f"{PULSE}: V_max_plotted")
+@states("lumen-peak-height", "section 3.6.2, figure 12a", f"{PULSE}: V_max_plotted")
 def height_of_the_peak(e):
     """Largest axial velocity for A = 100, without the prefactor of eqn:lumen."""
     return _plotted(e, "V_max_plotted")
 
 
-@statements.states("lumen-far-nonzero", "section 3.6.2, figure 12a", f"{PULSE}: V_far_plotted")
+@states("lumen-far-nonzero", "section 3.6.2, figure 12a", f"{PULSE}: V_far_plotted")
 def velocity_far_ahead(e):
     """Axial velocity far ahead of the front for A = 100, without the prefactor of eqn:lumen."""
     return _plotted(e, "V_far_plotted")
 
 
-@statements.states("lumen-peak-product", "figure 12b", f"{PULSE}: V_max_plotted", IDENTITY)
+@states("lumen-peak-product", "figure 12b", f"{PULSE}: V_max_plotted", IDENTITY)
 def product_of_the_peak(e):
     """A V_max without the prefactor, at the A of figure 12a: the tanh form depends on A (Z - Z_C)
     only, so that this is lumen-peak-height again."""
@@ -122,18 +117,18 @@ def product_of_the_peak(e):
     return Computed(A * peak.value, A * peak.uncertainty)
 
 
-@statements.states("figure-12-prefactor", "figure 12, eqn:lumen", f"{PULSE}: V_max", LINE)
+@states("figure-12-prefactor", "figure 12, eqn:lumen", f"{PULSE}: V_max", LINE)
 def prefactor(e):
     """Figure 12a draws V of eqn:lumen; here the largest for A = 100."""
     at = e.data["lumen_pulse"].sel(A=float(e.data["lumen_pulse"].drawn_A), method="nearest")
-    fit = e.data["front_fit"]
-    law = relative(fit, "A") + abs(
-        float(fit.exponent_uncertainty) * np.log(float(at.one_minus_ell))
-    )
+    fit, A = e.data["front_fit"], float(at.A)
+    n, of_n = float(fit.exponent), float(fit.exponent_uncertainty)
+    lever = abs(np.log(A / float(fit.prefactor))) / n**2  # V ~ (1-ell)^-2, 1-ell = (A/c)^(-1/n)
+    doubt = 2.0 * (of_prefactor(fit) / n + lever * of_n) * float(at.V_max)
     before = 8.0 / (e.tube["eps"] * float(at.one_minus_ell)) ** 2
     return Computed(
         float(at.V_max),
-        2.0 * law * float(at.V_max),
+        doubt,
         before,
         "8/(eps^2 (1-ell)^2) of the tube with this A:",
         "the figure is drawn without the prefactor",
@@ -141,7 +136,7 @@ def prefactor(e):
     )
 
 
-@statements.states("Vmax-exponent", "figure 12b", f"{PULSE}: V_front_printed, data/front_fit.nc: A")
+@states("Vmax-exponent", "figure 12b", f"{PULSE}: V_front_printed, data/front_fit.nc: A")
 def law_of_the_peak(e):
     """Power of A that V_max follows without the prefactor, in the solved tubes."""
     fit = e.data["front_fit"]
@@ -151,7 +146,7 @@ def law_of_the_peak(e):
     return Computed(*slope(of_figure(fit).A, bare, doubt))
 
 
-@statements.states("pulse-flux-constant", "section 3.6.2", f"{PULSE}: pulse_flux")
+@states("pulse-flux-constant", "section 3.6.2", f"{PULSE}: pulse_flux")
 def flux_of_the_pulse(e):
     """Power of 1 - ell that the flux of the pulse follows: none, it is constant (eqn:lumen)."""
     late = of_figure(e.data["lumen_pulse"], tau=LATE)
@@ -162,7 +157,7 @@ def flux_of_the_pulse(e):
     )
 
 
-@statements.states("lumen-height-vs-ell", "section 3.6.2, figure 12", f"{PULSE}: V_front_printed")
+@states("lumen-height-vs-ell", "section 3.6.2, figure 12", f"{PULSE}: V_front_printed")
 def height_and_thickness(e):
     """Sign of the power of 1 - ell that the height of the pulse follows, from eqn:lumen (text:
     grows with ell; caption: V_max ~ 1 - ell)."""
@@ -185,9 +180,7 @@ def _ratio(e, above: str, below: str, doubts: tuple[str, ...], extra: float = 0.
     return ratio, (relative(e.data["refinement/tube_pulse"], *doubts) + extra) * ratio
 
 
-@statements.states(
-    "lumen-matching", "eqn:lumen", f"{PULSE}: V_front_printed, V_front_matched", LINE
-)
+@states("lumen-matching", "eqn:lumen", f"{PULSE}: V_front_printed, V_front_matched", LINE)
 def lumen_matching(e):
     """U and V of eqn:lumen follow from matching the velocity U_g at R = B_0: printed over matched V
     at Z_C is 1."""
@@ -196,7 +189,7 @@ def lumen_matching(e):
     return Computed(*_ratio(e, *names, names), follows=follows, paper={"value": 1.0})
 
 
-@statements.states(
+@states(
     "lumen-continuity",
     "section 3.6.2, appendix B",
     f"{PULSE}: V_front_continuous_level, V_front_matched",
@@ -211,9 +204,7 @@ def lumen_continuity(e):
     return Computed(*_ratio(e, *names, names), follows=follows, paper={"value": 1.0})
 
 
-@statements.states(
-    "tanh-lumen-velocity", "section 3.6.2, figure 12", f"{PULSE}: V_far_printed, V_far_tanh"
-)
+@states("tanh-lumen-velocity", "section 3.6.2, figure 12", f"{PULSE}: V_far_printed, V_far_tanh")
 def tanh_velocities(e):
     """The tanh form, from which figure 12 is computed, gives the velocity of the solved tubes: V of
     eqn:lumen far ahead, solved over tanh, is 1."""
@@ -224,7 +215,7 @@ def tanh_velocities(e):
     return Computed(far, doubt, peak, "the same of the peaks:", follows, {"value": 1.0})
 
 
-@statements.states("coupling-G", "appendix B", "config: scales, eqn:app:full_interior_bc")
+@states("coupling-G", "appendix B", "config: scales, eqn:app:full_interior_bc")
 def lumen_coupling(e):
     """Lumen and gel uncouple for every a_1 above the stated smallest one: the term that G = k/a_1^2
     stands for is of order eps^2."""

@@ -9,6 +9,7 @@ from gelpump.statements.statement import LINE, Collection, Computed, holds
 from gelpump.uncertainty import rounding_error
 
 statements = Collection()
+states = statements.states
 GELS = ("ANB", "HHT")
 ROUNDING = 4 * np.finfo(float).eps  # relative, of a closed formula or a root found to the last bit
 COLD = 300.0  # K, the lowest temperature that the paper draws
@@ -34,13 +35,13 @@ def _initial(e, case: str) -> Computed:
     return Computed(phi, root_uncertainty(gel, phi, T))
 
 
-@statements.states("phi0-308-hht", "section 2.1", "data/bead_swelling_lens.nc: polymer_fraction")
+@states("phi0-308-hht", "section 2.1", "bead_swelling_lens: polymer_fraction")
 def equilibrium_before_swelling(e):
     """The HHT gel in equilibrium at 308 K has this polymer fraction."""
     return _initial(e, "swelling")
 
 
-@statements.states("phi0-304-hht", "section 2.1", "data/bead_drying_lens.nc: polymer_fraction")
+@states("phi0-304-hht", "section 2.1", "bead_drying_lens: polymer_fraction")
 def equilibrium_before_drying(e):
     """The HHT gel in equilibrium at 304 K has this polymer fraction."""
     return _initial(e, "drying")
@@ -58,32 +59,32 @@ def _jump(e, which: int) -> Computed:
     return Computed(float(folds[which]), max(doubts), follows=drawn)
 
 
-ANB_FOLDS = "data/materials_ANB.nc: fold_temperature"
+ANB_FOLDS = "materials_ANB: fold_temperature"
 
 
-@statements.states("tc-up-anb", "appendix A, figure 14", ANB_FOLDS)
+@states("tc-up-anb", "appendix A, figure 14", ANB_FOLDS)
 def swelling_transition_of_anb(e):
     """Temperature at which the ANB gel jumps on swelling."""
     return _jump(e, 0)
 
 
-@statements.states("tc-down-anb", "appendix A, figure 14", ANB_FOLDS)
+@states("tc-down-anb", "appendix A, figure 14", ANB_FOLDS)
 def drying_transition_of_anb(e):
     """Temperature at which the ANB gel jumps on drying."""
     return _jump(e, -1)
 
 
-@statements.states("tc-hht", "appendix A, figure 14", "data/materials_HHT.nc: fold_temperature")
+@states("tc-hht", "appendix A, figure 14", "materials_HHT: fold_temperature")
 def transition_of_hht(e):
     """Temperature at which the HHT gel jumps (on swelling, on drying)."""
     folds, doubts = _folds(e, "HHT")
     return Computed(folds, [max(doubts)] * folds.size)
 
 
-BOTH_FOLDS = "data/materials_{ANB,HHT}.nc: fold_temperature"
+BOTH_FOLDS = "materials_{ANB,HHT}: fold_temperature"
 
 
-@statements.states("hysteresis-both", "appendix A, figure 14", BOTH_FOLDS)
+@states("hysteresis-both", "appendix A, figure 14", BOTH_FOLDS)
 def hysteresis(e):
     """Both gels have several equilibria in a narrow band of temperatures."""
     folds = [_folds(e, name) for name in GELS]
@@ -97,10 +98,10 @@ def _exponent(phi, asymptote, step: int) -> float:
     return -0.6 * float(slope[0])
 
 
-SWOLLEN = "data/materials_{ANB,HHT}.nc: swollen_polymer_fraction, asymptotic_polymer_fraction"
+SWOLLEN = "materials_{ANB,HHT}: swollen_polymer_fraction, asymptotic_polymer_fraction"
 
 
-@statements.states("phi0-asymptote", "appendix A", SWOLLEN)
+@states("phi0-asymptote", "appendix A", SWOLLEN)
 def low_temperature_power(e):
     """Power of 1/2 - (A0-A1) - (B0-B1) T that phi_0 of the swollen gels (ANB, HHT) follows at the
     lowest temperature of their range."""
@@ -112,10 +113,10 @@ def low_temperature_power(e):
     return Computed(near, np.abs(np.subtract(near, wide)), off, measured)
 
 
-COLD_STATES = "data/materials_{ANB,HHT}.nc: equilibrium_polymer_fraction"
+COLD_STATES = "materials_{ANB,HHT}: equilibrium_polymer_fraction"
 
 
-@statements.states("phi0-low-temperature", "appendix A", COLD_STATES)
+@states("phi0-low-temperature", "appendix A", COLD_STATES)
 def low_temperature_fraction(e):
     """At 300 K, which is sufficiently low, the swollen gels (ANB, HHT) have this phi_0."""
     tables = [e.data[f"materials_{name}"] for name in GELS]
@@ -132,13 +133,13 @@ def _singular(e, name: str) -> Computed:
     return Computed(T, ROUNDING * T)
 
 
-@statements.states("singular-t-anb", "appendix A", "data/materials_ANB.nc: singular_temperature")
+@states("singular-t-anb", "appendix A", "materials_ANB: singular_temperature")
 def end_of_the_asymptote_anb(e):
     """Temperature at which the low-temperature asymptote of ANB breaks down."""
     return _singular(e, "ANB")
 
 
-@statements.states("singular-t-hht", "appendix A", "data/materials_HHT.nc: singular_temperature")
+@states("singular-t-hht", "appendix A", "materials_HHT: singular_temperature")
 def end_of_the_asymptote_hht(e):
     """Temperature at which the low-temperature asymptote of HHT breaks down."""
     return _singular(e, "HHT")
@@ -153,7 +154,7 @@ def _moduli(gel, phi, phi_00: float, steps: int) -> np.ndarray:
 SHEARED = "gelpump.statements.derivations: free energy of an element in shear"
 
 
-@statements.states("mu-independent-of-phi", "appendix A", SHEARED)
+@states("mu-independent-of-phi", "appendix A", SHEARED)
 def shear_modulus(e):
     """The shear modulus does not depend on the polymer fraction, and grows with temperature."""
     phi, phi_00 = np.geomspace(1e-3, 0.9, 40), 0.05
@@ -170,7 +171,7 @@ def shear_modulus(e):
     )
 
 
-@statements.states("mu-chain-length", "appendix A", SHEARED, LINE)
+@states("mu-chain-length", "appendix A", SHEARED, LINE)
 def chain_length(e):
     """The shear modulus increases with chain length, longer chains having a larger Omega_p: at one
     phi_00 it is more than once as large for chains of twice the length."""
@@ -186,10 +187,10 @@ def chain_length(e):
                     "it falls as 1/Omega_p", {"value": True})  # fmt: skip
 
 
-PRESSURES = "data/materials_{ANB,HHT}.nc: osmotic_pressure"
+PRESSURES = "materials_{ANB,HHT}: osmotic_pressure"
 
 
-@statements.states("pi-negative-small-phi", "appendix A, figure 13", PRESSURES)
+@states("pi-negative-small-phi", "appendix A, figure 13", PRESSURES)
 def ends_of_the_pressure(e):
     """The osmotic pressure is slightly negative as phi -> 0 and diverges as phi -> 1."""
     Pi = [e.data[f"materials_{name}"].osmotic_pressure.values for name in GELS]
@@ -200,10 +201,10 @@ def ends_of_the_pressure(e):
     return Computed(holds(min(-negative, growth), doubt), doubt, negative, measured)
 
 
-REFERENCE = "data/bead_drying_lens.nc: polymer_fraction"
+REFERENCE = "bead_drying_lens: polymer_fraction"
 
 
-@statements.states("diffusivity-reference-state", "eqn:lens_transport", REFERENCE, LINE)
+@states("diffusivity-reference-state", "eqn:lens_transport", REFERENCE, LINE)
 def reference_state(e):
     """The elastic part of D is (4/3) mu_s (phi/phi_0)^(1/3); here D in mu_s k/mu_l at the start and
     the end of drying."""

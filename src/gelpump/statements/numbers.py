@@ -1,19 +1,21 @@
-"""The numbers that each figure shows, with their numerical uncertainty.
+"""The numbers that each figure shows beside those that the paper states, with their uncertainty.
 
 Of solutions it comes from their refinement in space and time; of closed formulae, roots and
 quadratures from these themselves.  What is derived from such numbers inherits it to first order.
+A number is told as quantity, value, uncertainty, what that was taken from, "dataset: variables"
+and, unless it is scaled, its unit; value and uncertainty may be several.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from operator import itemgetter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from gelpump.statements.beads import MODELS, bead, spread
 from gelpump.statements.materials import fold_uncertainty, root_uncertainty
-from gelpump.statements.tubes import front_constant
+from gelpump.statements.statement import where_from
+from gelpump.statements.tubes import front_constant, of_prefactor
 from gelpump.statements.views import number
 from gelpump.tables import page
 from gelpump.tube import lumen
@@ -24,64 +26,43 @@ REFINED, ROUNDED, INTEGRATED = "refinement", "rounding", "quadrature"
 FOLLOWED = "the mesh that follows the front"
 FLAT = 1e-3  # relative step over which the curvature at an extremum is taken
 LENGTH, TIME = "R_dry", "t_BMJ"
+Told = Iterator[tuple]
 
 
-@dataclass(frozen=True)
-class KeyNumber:
-    """A number, or a list of them, that a figure shows.
+class Shown(NamedTuple):
+    """What the numbers of a figure are taken from."""
 
-    figure: its rule.  quantity: what it is, in plain words.  uncertainty: numerical, of the shape
-    of the value.  unit: empty for scaled quantities.  source: what the uncertainty was taken from.
-    evidence: the file and variable it was read from.
+    data: Mapping[str, Any]
+    gels: Mapping[str, Any]
+    config: Any
+
+
+def key_numbers(data: Mapping, gels: Mapping, config) -> Iterator[dict[str, Any]]:
+    """The rows of ``figure_numbers.json``; ValueError if a number is not finite.
+
+    data: all datasets of the paper's figures; gels: energy-based ones, by name; config: has the
+    blocks ``figures``, ``beads``, ``tube_flow`` and ``lumen_pulse`` of the configuration.
     """
-
-    figure: str
-    quantity: str
-    value: float | Sequence[float]
-    uncertainty: float | Sequence[float]
-    source: str
-    evidence: str
-    unit: str = ""
-
-    def record(self) -> dict[str, Any]:
-        """The row of ``figure_numbers.json``; ValueError if a number in it is not finite."""
-        value = np.asarray(self.value, dtype=float).tolist()
-        uncertainty = np.asarray(self.uncertainty, dtype=float).tolist()
-        if not (np.all(np.isfinite(value)) and np.all(np.isfinite(uncertainty))):
-            raise ValueError(f"{self.figure}, {self.quantity}: {value} ± {uncertainty}")
-        return {
-            "figure": self.figure,
-            "quantity": self.quantity,
-            "value": value,
-            "uncertainty": uncertainty,
-            "printed": number(value, uncertainty),
-            "unit": self.unit,
-            "source": self.source,
-            "evidence": self.evidence,
-        }
+    for figure, told in FIGURES.items():
+        for each in told(Shown(data, gels, config), **config.figures.get(figure, {})):
+            yield row(figure, *each)
 
 
-def key_numbers(data: Mapping, gels: Mapping, config) -> Iterator[KeyNumber]:
-    """data: all datasets of the paper's figures; gels: energy-based ones, by name; config: has the
-    blocks ``figures``, ``beads``, ``tube_flow`` and ``lumen_pulse`` of the configuration."""
-    figures, cases = config.figures, config.beads
-    yield from _deformed_bead(data, gels, cases, **figures["fig01_lens_schematic"])
-    yield from _heated_gel(gels, **figures["fig02_osmotic_schema"])
-    for figure in ("fig03_swell_bead", "fig04_dry_bead"):
-        yield from _bead(data, figure, **figures[figure])
-    yield from _spinodal(data, gels, **figures["fig05_spinodal"])
-    yield from _collapsed_tube(data, **figures["fig06_tube_schematic"])
-    yield from _deswelling(data)
-    yield from _profiles(data, **figures["fig08_profiles"])
-    yield from _fronts(data, figures["fig09_relax"]["ell"])
-    for figure in ("fig10_flow", "fig11_flow_close"):
-        for view in figures[figure]["views"]:
-            yield from _flow(data, figure, **config.tube_flow[view])
-    yield from _pulse(data, config.lumen_pulse)
-    for name in figures["fig13_osmotic"]["gels"]:
-        yield from _equilibria(data, gels[name], name)
-    for name in figures["fig14_equilibrium"]["gels"]:
-        yield from _transitions(data, gels[name], name)
+def row(figure, quantity, value, uncertainty, source, evidence, unit="") -> dict[str, Any]:
+    """A row of ``figure_numbers.json``; ValueError if a number in it is not finite."""
+    value, uncertainty = (np.asarray(each, float).tolist() for each in (value, uncertainty))
+    if not (np.all(np.isfinite(value)) and np.all(np.isfinite(uncertainty))):
+        raise ValueError(f"{figure}, {quantity}: {value} ± {uncertainty}")
+    return {
+        "figure": figure,
+        "quantity": quantity,
+        "value": value,
+        "uncertainty": uncertainty,
+        "printed": number(value, uncertainty),
+        "unit": unit,
+        "source": source,
+        "evidence": where_from(evidence),
+    }
 
 
 def markdown(rows: Sequence[Mapping[str, Any]]) -> str:
@@ -97,77 +78,59 @@ def _listed(values) -> str:
     return ", ".join(f"{value:g}" for value in values)
 
 
-# beads
-
-
-def _refined_bead(data, case, model):
-    """Production run and refinement on their common times; None where the run stopped at once."""
-    return bead(data, case, model) if data[f"refinement/bead_{case}_{model}"].t.size else None
-
-
-def _deformed_bead(data, gels, cases, case: str, time: float) -> Iterator[KeyNumber]:
-    figure, evidence = "fig01_lens_schematic", f"data/bead_{case}_lens.nc"
-    gel = gels[cases[case]["gel"]]
-    phi_00 = float(data[f"bead_{case}_lens"].polymer_fraction[0, 0])
-    of_root = root_uncertainty(gel, phi_00, cases[case]["temperature_initial"])
-    yield KeyNumber(
-        figure, "phi_00 of the reference state", phi_00, of_root, ROUNDED,
-        f"{evidence}: polymer_fraction at t = 0",
-    )  # fmt: skip
-    bead, refined = (
-        each.sel(t=time, method="nearest") for each in _refined_bead(data, case, "lens")
+def _deformed_bead(e, case: str, time: float) -> Told:
+    whole, initial = f"bead_{case}_lens", e.config.beads[case]["temperature_initial"]
+    phi_00, a_00 = (
+        float(x) for x in (e.data[whole].polymer_fraction[0, 0], e.data[whole].radius[0])
     )
-    a_00 = float(data[f"bead_{case}_lens"].radius[0])
-    a, of_a = float(bead.radius), float(refined.radius_uncertainty)
-    phi = float(bead.surface_polymer_fraction)
-    of_phi = float(refined.surface_polymer_fraction_uncertainty)
-    yield KeyNumber(
-        figure, f"radius in the reference state and at t_BMJ = {time:g}", [a_00, a],
-        [a_00 / 3.0 * of_root / phi_00, of_a], REFINED, f"{evidence}: radius", LENGTH,
+    of_root = root_uncertainty(e.gels[e.config.beads[case]["gel"]], phi_00, initial)
+    run, refined = (each.sel(t=time, method="nearest") for each in bead(e.data, case, "lens"))
+    a, phi = float(run.radius), float(run.surface_polymer_fraction)
+    of_a, of_phi = (
+        float(refined[f"{name}_uncertainty"]) for name in ("radius", "surface_polymer_fraction")
+    )
+    yield "phi_00 of the reference state", phi_00, of_root, ROUNDED, f"{whole}: polymer_fraction"
+    yield (
+        f"radius in the reference state and at t_BMJ = {time:g}", [a_00, a],
+        [a_00 / 3.0 * of_root / phi_00, of_a], REFINED, f"{whole}: radius", LENGTH,
     )  # fmt: skip
     stretch = np.cbrt(phi / phi_00)
-    yield KeyNumber(
-        figure, f"deviatoric strain along the circle at the surface, t_BMJ = {time:g}",
+    yield (
+        f"deviatoric strain along the circle at the surface, t_BMJ = {time:g}",
         stretch - a_00 / a, stretch / 3.0 * of_phi / phi + a_00 / a**2 * of_a, REFINED,
-        f"{evidence}: radius, surface_polymer_fraction",
+        f"{whole}: radius, surface_polymer_fraction",
     )  # fmt: skip
 
 
-def _bead(data, figure: str, case: str) -> Iterator[KeyNumber]:
-    for model, name in MODELS.items():
-        if (runs := _refined_bead(data, case, model)) is None:
-            continue
-        bead, refined = runs
-        evidence = f"data/bead_{case}_{model}.nc"
-        ends = bead.radius.values[[0, -1]]
-        doubts = refined.radius_uncertainty.values[[0, -1]] + np.spacing(ends)  # no run moves a_00
-        yield KeyNumber(
-            figure, f"{name} radius at t_BMJ = {_listed(bead.t.values[[0, -1]])}", ends, doubts,
-            REFINED, f"{evidence}: radius", LENGTH,
+def _bead(e, case: str) -> Told:
+    runs = {  # none where a run stopped at once
+        model: bead(e.data, case, model)
+        for model in MODELS
+        if e.data[f"refinement/bead_{case}_{model}"].t.size
+    }
+    for model, (run, refined) in runs.items():
+        name, from_radius = MODELS[model], f"bead_{case}_{model}: radius"
+        ends, t = run.radius.values[[0, -1]], run.t.values
+        doubts = refined.radius_uncertainty.values[[0, -1]] + np.spacing(ends)  # a_00 is given
+        at = f"t_BMJ = {_listed(t[[0, -1]])}"
+        yield f"{name} radius at {at}", ends, doubts, REFINED, from_radius, LENGTH
+        halves, between = np.transpose([half_time(t, each) for each in refined.radius.values])
+        yield (
+            f"time of half the change of the {name} radius", halves[0],
+            spread(halves) + between[0], REFINED, from_radius, TIME,
         )  # fmt: skip
-        halves, between = zip(
-            *(half_time(refined.t.values, radius) for radius in refined.radius.values), strict=True
-        )
-        yield KeyNumber(
-            figure, f"time of half the change of the {name} radius", halves[0],
-            spread(np.array(halves)) + between[0], REFINED, f"{evidence}: radius", TIME,
+        surface = "surface_polymer_fraction"
+        yield (
+            f"{name} polymer fraction at the surface, t_BMJ = {t[-1]:g}", run[surface][-1],
+            refined[f"{surface}_uncertainty"][-1], REFINED, f"bead_{case}_{model}: {surface}",
         )  # fmt: skip
-        yield KeyNumber(
-            figure, f"{name} polymer fraction at the surface, t_BMJ = {float(bead.t[-1]):g}",
-            bead.surface_polymer_fraction.values[-1],
-            refined.surface_polymer_fraction_uncertainty.values[-1], REFINED,
-            f"{evidence}: surface_polymer_fraction",
-        )  # fmt: skip
-    both = [_refined_bead(data, case, model) for model in MODELS]
-    if all(both):
-        t = both[0][0].t.values[: min(bead.t.size for bead, _ in both)]
-        apart = np.subtract(*(bead.radius.sel(t=t).values for bead, _ in both))
-        doubt = sum(refined.radius_uncertainty.sel(t=t).values for _, refined in both)
-        most = int(np.argmax(np.abs(apart)))
-        yield KeyNumber(
-            figure, "largest distance of the two radii", abs(apart[most]), doubt[most], REFINED,
-            f"data/bead_{case}_{{nonlinear,lens}}.nc: radius", LENGTH,
-        )  # fmt: skip
+    if len(runs) == len(MODELS):
+        t = min((run.t.values for run, _ in runs.values()), key=len)
+        apart = np.subtract(*(run.radius.sel(t=t).values for run, _ in runs.values()))
+        most, of_both = int(np.argmax(np.abs(apart))), f"bead_{case}_{{nonlinear,lens}}: radius"
+        doubt = sum(float(each.radius_uncertainty.sel(t=t)[most]) for _, each in runs.values())
+        size = abs(apart[most])
+        yield "largest distance of the two radii", size, doubt, REFINED, of_both, LENGTH
 
 
 def half_time(t: np.ndarray, radius: np.ndarray) -> tuple[float, float]:
@@ -183,58 +146,50 @@ def half_time(t: np.ndarray, radius: np.ndarray) -> tuple[float, float]:
     return float(cubic), float(abs(cubic - parabola))
 
 
-# energy-based gels
-
-
-def _heated_gel(gels, gel: str, temperatures: Sequence[float]) -> Iterator[KeyNumber]:
-    figure, evidence, material = "fig02_osmotic_schema", f"data/materials_{gel}.nc", gels[gel]
-    cold, hot = temperatures
-    roots = []
+def _heated_gel(e, gel: str, temperatures: Sequence[float]) -> Told:
+    material, (cold, hot) = e.gels[gel], temperatures
+    states = []
     for T in temperatures:
         phi, stable = material.equilibrium_polymer_fractions(T)
-        roots.append((phi[stable], [root_uncertainty(material, each, T) for each in phi[stable]]))
-        yield KeyNumber(
-            figure, f"stable equilibrium phi_0 of {gel} at {T:g} K", *roots[-1], ROUNDED,
-            f"{evidence}: equilibrium_polymer_fraction",
+        states.append((phi[stable], [root_uncertainty(material, x, T) for x in phi[stable]]))
+        yield (
+            f"stable equilibrium phi_0 of {gel} at {T:g} K", *states[-1], ROUNDED,
+            f"materials_{gel}: equilibrium_polymer_fraction",
         )  # fmt: skip
-    phi, doubt = roots[0][0][0], roots[0][1][0]
-    slope = float(material.osmotic_modulus(phi, hot)) / phi
-    yield KeyNumber(
-        figure, f"Pi at {hot:g} K of the gel that was in equilibrium at {cold:g} K",
+    phi, doubt = states[0][0][0], states[0][1][0]
+    slope = abs(float(material.osmotic_modulus(phi, hot)) / phi)
+    yield (
+        f"Pi at {hot:g} K of the gel that was in equilibrium at {cold:g} K",
         float(material.osmotic_pressure(phi, hot)),
-        float(rounding_error(material.osmotic_pressure, phi, hot)) + abs(slope) * doubt, ROUNDED,
-        f"{evidence}: osmotic_pressure", "k_B T/Omega_f",
+        float(rounding_error(material.osmotic_pressure, phi, hot)) + slope * doubt, ROUNDED,
+        f"materials_{gel}: osmotic_pressure", "k_B T/Omega_f",
     )  # fmt: skip
 
 
-def _spinodal(data, gels, gel: str, cases: Sequence[str]) -> Iterator[KeyNumber]:
-    figure, table, material = "fig05_spinodal", data[f"materials_{gel}"], gels[gel]
-    if "spinodal_tip_temperature" in table:
-        T, phi = float(table.spinodal_tip_temperature), float(table.spinodal_tip_polymer_fraction)
-        for quantity, value, doubt in (
-            ("temperature", T, rounding_error(material.spinodal_temperature, phi)),
-            ("polymer fraction", phi, _located(material.spinodal_temperature, phi)),
-        ):
-            yield KeyNumber(
-                figure, f"{quantity} of the tip of the spinodal of {gel}", value, float(doubt),
-                ROUNDED,
-                f"data/materials_{gel}.nc: spinodal_tip_{quantity.replace(' ', '_')}",
-                "K" if quantity == "temperature" else "",
-            )  # fmt: skip
+def _spinodal(e, gel: str, cases: Sequence[str]) -> Told:
+    table, T_sp = e.data[f"materials_{gel}"], e.gels[gel].spinodal_temperature
+    tip, of_tip = "spinodal_tip", f"materials_{gel}: spinodal_tip"
+    if f"{tip}_temperature" in table:
+        phi = float(table[f"{tip}_polymer_fraction"])
+        at, size = f"of the tip of the spinodal of {gel}", rounding_error(T_sp, phi)
+        T = table[f"{tip}_temperature"]
+        yield f"temperature {at}", T, size, ROUNDED, f"{of_tip}_temperature", "K"
+        located = _located(T_sp, phi)
+        yield f"polymer fraction {at}", phi, located, ROUNDED, f"{of_tip}_polymer_fraction"
     for case in cases:
-        bead, refined = data[f"bead_{case}_lens"], data[f"refinement/bead_{case}_lens"]
+        run, refined = e.data[f"bead_{case}_lens"], e.data[f"refinement/bead_{case}_lens"]
         if "stop_time" in refined:
-            yield KeyNumber(
-                figure, f"time at which phases begin to separate, {case}",
-                float(refined.stop_time[0]), float(refined.stop_time_uncertainty), REFINED,
-                f"data/refinement/bead_{case}_lens.nc: stop_time", TIME,
+            yield (
+                f"time at which phases begin to separate, {case}", refined.stop_time[0],
+                refined.stop_time_uncertainty, REFINED,
+                f"refinement/bead_{case}_lens: stop_time", TIME,
             )  # fmt: skip
         else:
-            least = int(np.argmin(bead.smallest_diffusivity.values))
-            yield KeyNumber(
-                figure, f"smallest diffusivity, {case}", float(bead.smallest_diffusivity[least]),
-                float(refined.smallest_diffusivity_uncertainty[least]), REFINED,
-                f"data/bead_{case}_lens.nc: smallest_diffusivity", "k mu_s/mu_l",
+            least = int(np.argmin(run.smallest_diffusivity.values))
+            yield (
+                f"smallest diffusivity, {case}", run.smallest_diffusivity[least],
+                refined.smallest_diffusivity_uncertainty[least], REFINED,
+                f"bead_{case}_lens: smallest_diffusivity", "k mu_s/mu_l",
             )  # fmt: skip
 
 
@@ -247,46 +202,32 @@ def _located(curve, phi: float) -> float:
     return float(np.sqrt(2.0 * rounding_error(curve, phi) / curvature))
 
 
-def _equilibria(data, material, gel: str) -> Iterator[KeyNumber]:
-    table = data[f"materials_{gel}"]
-    stable = table.equilibrium_stable.values == 1
-    T = table.equilibrium_temperature.values[stable]
-    phi = table.equilibrium_polymer_fraction.values[stable]
-    for drawn in (T.min(), T.max()):
-        here = phi[drawn == T]
-        yield KeyNumber(
-            "fig13_osmotic", f"phi where Pi of {gel} vanishes at {drawn:g} K", here,
-            [root_uncertainty(material, each, drawn) for each in here], ROUNDED,
-            f"data/materials_{gel}.nc: equilibrium_polymer_fraction",
+def _equilibria(e, gels: Sequence[str]) -> Told:
+    for name in gels:
+        table, variable = e.data[f"materials_{name}"], "equilibrium_polymer_fraction"
+        stable = table.equilibrium_stable.values == 1
+        T, phi = table.equilibrium_temperature.values[stable], table[variable].values[stable]
+        for drawn in (T.min(), T.max()):
+            here = phi[drawn == T]
+            doubts = [root_uncertainty(e.gels[name], each, drawn) for each in here]
+            quantity = f"phi where Pi of {name} vanishes at {drawn:g} K"
+            yield quantity, here, doubts, ROUNDED, f"materials_{name}: {variable}"
+
+
+def _transitions(e, gels: Sequence[str]) -> Told:
+    for name in gels:
+        table, gel, whole = e.data[f"materials_{name}"], e.gels[name], f"materials_{name}"
+        T, phi = table.fold_temperature, table.fold_polymer_fraction
+        folds, of_T = f"of the folds of {name}", [fold_uncertainty(gel, x) for x in phi.values]
+        of_phi = [_located(gel.equilibrium_temperature, x) for x in phi.values]
+        yield f"temperatures {folds}", T, of_T, ROUNDED, f"{whole}: {T.name}", "K"
+        yield f"polymer fractions {folds}", phi, of_phi, ROUNDED, f"{whole}: {phi.name}"
+        known = gel.A0 - gel.A1, gel.B0 - gel.B1
+        yield (
+            f"temperature at which the asymptote of {name} diverges", table.singular_temperature,
+            rounding_error(lambda A, B: (0.5 - A) / B, *known), ROUNDED,
+            f"{whole}: singular_temperature", "K",
         )  # fmt: skip
-
-
-def _transitions(data, material, gel: str) -> Iterator[KeyNumber]:
-    figure, table = "fig14_equilibrium", data[f"materials_{gel}"]
-    phi = table.fold_polymer_fraction.values
-    for quantity, name, doubts, unit in (
-        ("temperatures", "fold_temperature", [fold_uncertainty(material, x) for x in phi], "K"),
-        (
-            "polymer fractions",
-            "fold_polymer_fraction",
-            [_located(material.equilibrium_temperature, x) for x in phi],
-            "",
-        ),
-    ):
-        yield KeyNumber(
-            figure, f"{quantity} of the folds of {gel}", table[name].values, doubts, ROUNDED,
-            f"data/materials_{gel}.nc: {name}", unit,
-        )  # fmt: skip
-    parameters = material.A0 - material.A1, material.B0 - material.B1
-    yield KeyNumber(
-        figure, f"temperature at which the asymptote of {gel} diverges",
-        float(table.singular_temperature),
-        float(rounding_error(lambda A, B: (0.5 - A) / B, *parameters)), ROUNDED,
-        f"data/materials_{gel}.nc: singular_temperature", "K",
-    )  # fmt: skip
-
-
-# tubes
 
 
 def _relative(refinement, name: str, ell) -> np.ndarray:
@@ -295,130 +236,84 @@ def _relative(refinement, name: str, ell) -> np.ndarray:
     share = refinement[f"{name}_uncertainty"] / abs(refinement[name].isel(level=0))
     thickness = np.log(1.0 - refinement.ell.values)
     order = np.argsort(thickness)
-    return np.interp(
-        np.log(1.0 - np.asarray(ell)), thickness[order], share.max("tau").values[order]
-    )
+    there = np.log(1.0 - np.asarray(ell))
+    return np.interp(there, thickness[order], share.max("tau").values[order])
 
 
-def _front(data, figure: str, tau: Sequence[float]) -> KeyNumber:
-    pulse = data["tube_pulse"]
+def _front(pulse, tau: Sequence[float]) -> tuple:
     constant, doubt = front_constant(pulse)
     Z_C = pulse.Z_C.sel(tau=tau, method="nearest").values
-    return KeyNumber(
-        figure, f"Z_C at tau = {_listed(tau)}", Z_C, doubt / constant * Z_C, FOLLOWED,
-        "data/tube_pulse.nc: Z_C, front_error",
-    )  # fmt: skip
+    evidence = "tube_pulse: Z_C, front_error"
+    return f"Z_C at tau = {_listed(tau)}", Z_C, doubt / constant * Z_C, FOLLOWED, evidence
 
 
-def _collapsed_tube(data, ell: float, tau: float) -> Iterator[KeyNumber]:
-    figure, pulse = "fig06_tube_schematic", data["tube_pulse"]
-    yield _front(data, figure, [tau])
+def _collapsed_tube(e, ell: float, tau: float) -> Told:
+    pulse, evidence = e.data["tube_pulse"], "tube_pulse: Phi1_front"
+    yield _front(pulse, [tau])
     Phi1 = float(pulse.Phi1_front.sel(ell=ell, tau=tau, method="nearest"))
-    share = float(_relative(data["refinement/tube_pulse"], "Phi1_front", ell))
     radii = np.array([ell, 1.0]) * Phi1 ** (-1 / 3)
-    yield KeyNumber(
-        figure, f"B_0 and B_1 at the front, ell = {ell:g}", radii, share / 3.0 * radii, REFINED,
-        "data/tube_pulse.nc: Phi1_front", "a_1",
-    )  # fmt: skip
+    doubt = _relative(e.data["refinement/tube_pulse"], "Phi1_front", ell) / 3.0 * radii
+    yield f"B_0 and B_1 at the front, ell = {ell:g}", radii, doubt, REFINED, evidence, "a_1"
 
 
-def _deswelling(data) -> Iterator[KeyNumber]:
-    figure, table, curves = "fig07_deswelling", data["deswelling_map"], data["deswelling_curves"]
+def _deswelling(e) -> Told:
+    table, curves = e.data["deswelling_map"], e.data["deswelling_curves"]
     for word, corner in (("longest", 0), ("shortest", -1)):
         at = table.isel(M=corner, Pi_ratio=corner)
-        yield KeyNumber(
-            figure, f"tau_99 at M = {float(at.M):g}, Pi~ = {float(at.Pi_ratio):g}, the {word}",
-            float(at.tau99), float(at.tau99_uncertainty), INTEGRATED,
-            "data/deswelling_map.nc: tau99",
-        )  # fmt: skip
-    yield KeyNumber(
-        figure, f"tau_99 for ell = {_listed(curves.ell.values)}", curves.tau99.values,
-        curves.tau99_uncertainty.values, INTEGRATED, "data/deswelling_curves.nc: tau99",
-    )  # fmt: skip
+        here = f"tau_99 at M = {float(at.M):g}, Pi~ = {float(at.Pi_ratio):g}, the {word}"
+        yield here, at.tau99, at.tau99_uncertainty, INTEGRATED, "deswelling_map: tau99"
+    here, doubt = f"tau_99 for ell = {_listed(curves.ell.values)}", curves.tau99_uncertainty
+    yield here, curves.tau99, doubt, INTEGRATED, "deswelling_curves: tau99"
 
 
-def _profiles(data, ell: float, tau: Sequence[float]) -> Iterator[KeyNumber]:
-    figure = "fig08_profiles"
-    yield _front(data, figure, tau)
-    Phi1 = data["tube_pulse"].Phi1_front.sel(ell=ell, method="nearest")
-    Phi1 = Phi1.sel(tau=tau, method="nearest").values
-    yield KeyNumber(
-        figure, f"Phi_1 at Z_C for ell = {ell:g}, tau = {_listed(tau)}", Phi1,
-        _relative(data["refinement/tube_pulse"], "Phi1_front", ell) * Phi1, REFINED,
-        "data/tube_pulse.nc: Phi1_front",
-    )  # fmt: skip
+def _profiles(e, ell: float, tau: Sequence[float]) -> Told:
+    yield _front(e.data["tube_pulse"], tau)
+    at = {"tau": tau, "method": "nearest"}
+    Phi1 = e.data["tube_pulse"].Phi1_front.sel(ell=ell, method="nearest").sel(**at).values
+    doubt = _relative(e.data["refinement/tube_pulse"], "Phi1_front", ell) * Phi1
+    here = f"Phi_1 at Z_C for ell = {ell:g}, tau = {_listed(tau)}"
+    yield here, Phi1, doubt, REFINED, "tube_pulse: Phi1_front"
 
 
-def _fronts(data, ell: Sequence[float]) -> Iterator[KeyNumber]:
-    figure, fit = "fig09_relax", data["front_fit"]
-    drawn = fit.sel(ell=ell, method="nearest")
-    at = f"for ell = {_listed(ell)}, tau = {float(fit.fit_tau):g}"
-    yield KeyNumber(
-        figure, f"A {at}", drawn.A.values, drawn.A_uncertainty.values, REFINED,
-        "data/front_fit.nc: A", "1/L",
-    )  # fmt: skip
-    share = _relative(data["refinement/tube_pulse"], "Phi1_front", ell)
-    yield KeyNumber(
-        figure, f"Phi_1 at Z_C {at}", drawn.Phi1_front.values, share * drawn.Phi1_front.values,
-        REFINED, "data/front_fit.nc: Phi1_front",
-    )  # fmt: skip
-    yield KeyNumber(
-        figure, "n of A = c (1-ell)^(-n)", float(fit.exponent), float(fit.exponent_uncertainty),
-        REFINED, "data/front_fit.nc: exponent",
-    )  # fmt: skip
+def _law(e, **_) -> Told:
+    fit = e.data["front_fit"]
     c = float(fit.prefactor)
-    yield KeyNumber(
-        figure, "c of A = c (1-ell)^(-n)", c, c * _of_prefactor(fit), REFINED,
-        "data/front_fit.nc: prefactor", "1/L",
-    )  # fmt: skip
+    doubt = c * of_prefactor(fit)
+    yield "c of A = c (1-ell)^(-n)", c, doubt, REFINED, "front_fit: prefactor", "1/L"
 
 
-def _of_prefactor(fit) -> float:
-    """Relative uncertainty of c: its logarithm is the mean of ln A + n ln(1-ell)."""
-    in_law = fit.isel(ell=np.flatnonzero(fit.in_power_law.values))
-    lever = abs(float(np.log(1.0 - in_law.ell).mean()))
-    of_A = float((in_law.A_uncertainty / in_law.A).max())
-    return of_A + lever * float(fit.exponent_uncertainty)
+def _flows(e, views: Sequence[str], **_) -> Told:
+    for view in views:
+        ell, tau = (e.config.tube_flow[view][key] for key in ("ell", "tau"))
+        here = e.data["tube_pulse"].sel(ell=ell, tau=tau, method="nearest")
+        wall, V = Wall.of(here), lumen.velocity_printed(Wall.of(here))
+        for quantity, name, value, unit in (
+            ("axial velocity in the wall", "axial_velocity", wall.largest_axial_velocity, "L"),
+            ("radial velocity in the wall", "radial_velocity", wall.largest_radial_velocity, "a_1"),
+            ("axial velocity in the lumen", "V_front_printed", V[int(here.hot.sum())], "L"),
+        ):  # fmt: skip
+            doubt = _relative(e.data["refinement/tube_pulse"], name, ell) * value
+            at = f"largest {quantity}, ell = {ell:g}, tau = {tau:g}"
+            yield at, value, doubt, REFINED, "tube_pulse: F, flux, Phi1", f"{unit}/T"
 
 
-def _flow(data, figure: str, ell: float, tau: float) -> Iterator[KeyNumber]:
-    refinement = data["refinement/tube_pulse"]
-    here = data["tube_pulse"].sel(ell=ell, tau=tau, method="nearest")
-    wall, V = Wall.of(here), lumen.velocity_printed(Wall.of(here))
-    for quantity, name, value, unit in (
-        ("axial velocity in the wall", "axial_velocity", wall.largest_axial_velocity, "L"),
-        ("radial velocity in the wall", "radial_velocity", wall.largest_radial_velocity, "a_1"),
-        ("axial velocity in the lumen", "V_front_printed", V[int(here.hot.sum())], "L"),
-    ):
-        yield KeyNumber(
-            figure, f"largest {quantity}, ell = {ell:g}, tau = {tau:g}", float(value),
-            float(_relative(refinement, name, ell) * value), REFINED,
-            "data/tube_pulse.nc: F, flux, Phi1", f"{unit}/T",
-        )  # fmt: skip
+def _pulses(e) -> Told:
+    yield _front(e.data["tube_pulse"], e.config.lumen_pulse["tau"])
 
 
-def _pulse(data, settings: Mapping) -> Iterator[KeyNumber]:
-    figure, pulse, fit = "fig12_axial_flow", data["lumen_pulse"], data["front_fit"]
-    yield _front(data, figure, settings["tau"])
-    A = float(pulse.drawn_A)
-    at = pulse.sel(A=A, method="nearest")
-    for quantity, name in (("at Z_C", "V_max"), ("far ahead", "V_far")):
-        yield KeyNumber(
-            figure, f"V {quantity} for A = {A:g}, without the prefactor",
-            float(at[f"{name}_plotted"]), float(at[f"{name}_plotted_uncertainty"]), INTEGRATED,
-            f"data/lumen_pulse.nc: {name}_plotted", "L/T",
-        )  # fmt: skip
-    n, of_n = float(fit.exponent), float(fit.exponent_uncertainty)
-    # V ~ (1-ell)^-2 with 1-ell = (A/c)^(-1/n)
-    lever = abs(np.log(A / float(fit.prefactor))) / n**2
-    share = 2.0 * (_of_prefactor(fit) / n + lever * of_n)
-    yield KeyNumber(
-        figure, f"V at Z_C for A = {A:g}, with the prefactor", float(at.V_max),
-        share * float(at.V_max), REFINED, "data/lumen_pulse.nc: V_max", "L/T",
-    )  # fmt: skip
-    product = (pulse.A * pulse.V_max_plotted).values
-    doubt = float((pulse.A * pulse.V_max_plotted_uncertainty).max())
-    yield KeyNumber(
-        figure, "A V_max without the prefactor, mean over A", float(product.mean()),
-        doubt, INTEGRATED, "data/lumen_pulse.nc: V_max_plotted", "1/T",
-    )  # fmt: skip
+FIGURES = {
+    "fig01_lens_schematic": _deformed_bead,
+    "fig02_osmotic_schema": _heated_gel,
+    "fig03_swell_bead": _bead,
+    "fig04_dry_bead": _bead,
+    "fig05_spinodal": _spinodal,
+    "fig06_tube_schematic": _collapsed_tube,
+    "fig07_deswelling": _deswelling,
+    "fig08_profiles": _profiles,
+    "fig09_relax": _law,
+    "fig10_flow": _flows,
+    "fig11_flow_close": _flows,
+    "fig12_axial_flow": _pulses,
+    "fig13_osmotic": _equilibria,
+    "fig14_equilibrium": _transitions,
+}

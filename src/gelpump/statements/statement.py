@@ -94,6 +94,13 @@ class Collection(list[Statement]):
                 yield record(each, found, paper or None)
 
 
+def where_from(evidence: str) -> str:
+    """ "dataset: variables" as the file below results that holds them; anything else as it is."""
+    dataset, colon, variables = evidence.partition(": ")
+    known = colon and "." not in dataset and dataset != "config"
+    return f"data/{dataset}.nc: {variables}" if known else evidence
+
+
 def said(function: Callable) -> str:
     """The docstring as one sentence without its full stop."""
     return " ".join(function.__doc__.split()).removesuffix(".")
@@ -142,7 +149,7 @@ def record(each: Statement, found: Computed, paper: Mapping[str, Any] | None) ->
         "measured": found.measured,
         "follows": found.follows,
         "status": status(each.kind, found, paper),
-        "evidence": each.evidence,
+        "evidence": where_from(each.evidence),
         "code": f"{code.__module__}.{code.__qualname__}",
     }
     for key in ("computed", "uncertainty", "measure"):

@@ -13,9 +13,10 @@ from gelpump.statements.statement import IDENTITY, LINE, Collection, Computed, h
 from gelpump.uncertainty import rounding_error
 
 statements = Collection()
+states = statements.states
 DRAWN_ELL = [0.1, 0.25, 0.5, 0.75, 0.9]  # the tubes of figure 9
 FOR_ELL = "for ell = " + ", ".join(f"{ell:g}" for ell in DRAWN_ELL)
-MAP = "data/deswelling_map.nc: tau99"
+MAP = "deswelling_map: tau99"
 
 
 def slope(x, y, relative_error=0.0) -> tuple[float, float]:
@@ -45,7 +46,7 @@ def of_figure(dataset, **at):
     return dataset.sel(**at, method="nearest") if at else dataset
 
 
-@statements.states("tpore-scaling", "section 3", f"{MAP}_compared", IDENTITY)
+@states("tpore-scaling", "section 3", f"{MAP}_compared", IDENTITY)
 def poroelastic_time(e):
     """The response time scales as this power of the length: the equations have no other one."""
     table = e.data["deswelling_map"]
@@ -57,7 +58,7 @@ def poroelastic_time(e):
 RESOLVED = "gelpump.statements.derivations.wall_time: eqn:tube_evolution across the wall"
 
 
-@statements.states("radial-adjustment-thin", "section 3.6", RESOLVED)
+@states("radial-adjustment-thin", "section 3.6", RESOLVED)
 def thin_walls(e):
     """The deswelling time scales as this power of 1 - ell."""
     ell, gel = np.array([0.25, 0.5, 0.75, 0.9]), e.gels["tube"]
@@ -79,25 +80,25 @@ def _falls(e, name: str, axis: int) -> Computed:
     )
 
 
-@statements.states("faster-with-contrast", "section 3.4", f"{MAP}_contrast")
+@states("faster-with-contrast", "section 3.4", f"{MAP}_contrast")
 def faster_with_contrast(e):
     """A gel with a larger Phi_inf deswells faster, for every M of the map."""
     return _falls(e, "tau99_contrast", 1)
 
 
-@statements.states("faster-with-M", "section 3.4, figure 7a", MAP)
+@states("faster-with-M", "section 3.4, figure 7a", MAP)
 def faster_with_stiffness(e):
     """A stiffer gel (larger M) deswells faster, for every Pi~ of the map."""
     return _falls(e, "tau99", 0)
 
 
-@statements.states("faster-with-Pi", "section 3.4, figure 7a", MAP)
+@states("faster-with-Pi", "section 3.4, figure 7a", MAP)
 def faster_with_pressure(e):
     """A gel with a larger Pi~ deswells faster, for every M of the map."""
     return _falls(e, "tau99", 1)
 
 
-@statements.states("deswelling-curves", "figure 7b", "data/deswelling_curves.nc: Phi1")
+@states("deswelling-curves", "figure 7b", "deswelling_curves: Phi1")
 def deswelling_curves(e):
     """Phi_1 at tau = 1e-4 for ell = 0.01, 0.1, 0.25, 0.5."""
     curves = e.data["deswelling_curves"]
@@ -108,7 +109,7 @@ def deswelling_curves(e):
 HEAT = "gelpump.statements.derivations.heat_front: eqn:temp_field, data/tube_pulse.nc: Z_C"
 
 
-@statements.states("front-position", "section 3.5", HEAT)
+@states("front-position", "section 3.5", HEAT)
 def front_position(e):
     """Z_C / sqrt(Le tau) of the deswelling front."""
     pulse = e.data["tube_pulse"]
@@ -129,7 +130,14 @@ def front_constant(pulse) -> tuple[float, float]:
     return float(scaled(*first)), missed + float(rounding_error(scaled, *first))
 
 
-@statements.states("front-fig8", "figure 8", "data/tube_pulse.nc: Z_C")
+def of_prefactor(fit) -> float:
+    """Relative uncertainty of c in A = c (1-ell)^-n: ln c is the mean of ln A + n ln(1-ell)."""
+    in_law = fit.isel(ell=np.flatnonzero(fit.in_power_law.values))
+    lever = abs(float(np.log(1.0 - in_law.ell).mean()))
+    return relative(in_law, "A") + lever * float(fit.exponent_uncertainty)
+
+
+@states("front-fig8", "figure 8", "tube_pulse: Z_C")
 def drawn_front(e):
     """Position of the front at tau = 0.025 and 0.05."""
     pulse = e.data["tube_pulse"]
@@ -142,14 +150,14 @@ def drawn_front(e):
     return Computed(Z_C, doubt / constant * Z_C, follows=follows)
 
 
-@statements.states("lewis-number", "section 3.5", "config: scales", IDENTITY)
+@states("lewis-number", "section 3.5", "config: scales", IDENTITY)
 def lewis_number(e):
     """Thermal over compositional diffusivity, from their typical values in the same sentence."""
     known = e.scales["thermal_diffusivity"], e.scales["compositional_diffusivity"]
     return Computed(np.divide(*known), float(rounding_error(np.divide, *known)))
 
 
-@statements.states("tanh-form", "eqn:tanh_fit", "data/front_fit.nc: Phi1_front, fit_rms")
+@states("tanh-form", "eqn:tanh_fit", "front_fit: Phi1_front, fit_rms")
 def tanh_form(e):
     """Phi_1 around the front is a tanh, and so halfway between 1 and Phi_inf at Z_C."""
     fit, middle = e.data["front_fit"], float(1.0 + e.data["tube_pulse"].Phi_inf[0]) / 2.0
@@ -165,7 +173,7 @@ def tanh_form(e):
     )
 
 
-@statements.states("front-phi", "figure 9a", "data/front_fit.nc: Phi1_front")
+@states("front-phi", "figure 9a", "front_fit: Phi1_front")
 def polymer_fraction_at_the_front(e):
     """Phi_1 at Z_C for ell = 0.25, 0.5."""
     doubt = e.data["refinement/tube_pulse"].Phi1_front_uncertainty.max("tau")
@@ -173,7 +181,7 @@ def polymer_fraction_at_the_front(e):
     return Computed(e.data["front_fit"].Phi1_front.sel(**here).values, doubt.sel(**here).values)
 
 
-@statements.states("A-values", "figure 9b", "data/front_fit.nc: A", text=f"A(ell) {FOR_ELL}")
+@states("A-values", "figure 9b", "front_fit: A", text=f"A(ell) {FOR_ELL}")
 def sharpness(e):
     """A(ell) at the time of figure 9."""
     fit, solved = e.data["front_fit"], of_figure(e.data["front_fit"])
@@ -185,7 +193,7 @@ def sharpness(e):
     return Computed(solved.A.values, solved.A_uncertainty.values, follows=follows)
 
 
-@statements.states("A-exponent", "section 3.6, figure 9b", "data/front_fit.nc: exponent")
+@states("A-exponent", "section 3.6, figure 9b", "front_fit: exponent")
 def sharpness_law(e):
     """Power of 1 - ell that A(ell) follows; the figure has that of the points which it draws."""
     fit, drawn = e.data["front_fit"], e.published["A-values"]
@@ -201,7 +209,7 @@ def sharpness_law(e):
     )
 
 
-@statements.states("travelling-wave", "section 3.6", "data/front_fit.nc: profile_change")
+@states("travelling-wave", "section 3.6", "front_fit: profile_change")
 def travelling_wave(e):
     """The profile around Z_C keeps its shape while tau grows (ell = 0.25, from the time of figure
     9)."""
@@ -213,9 +221,7 @@ def travelling_wave(e):
     )
 
 
-@statements.states(
-    "phi1-near-equilibrium", "section 3.3, appendix B", "data/front_fit.nc: departure_front"
-)
+@states("phi1-near-equilibrium", "section 3.3, appendix B", "front_fit: departure_front")
 def closeness_to_equilibrium(e):
     """Phi_1 is everywhere close to Phi_0, to order eps^2, as the scaling needs."""
     fit, pulse = e.data["front_fit"], e.data["tube_pulse"]
@@ -230,7 +236,7 @@ def closeness_to_equilibrium(e):
     )
 
 
-@statements.states(
+@states(
     "radial-structure",
     "eqn:phi2, eqn:tube_model",
     "gelpump.statements.derivations.edge_coefficient",
@@ -247,7 +253,7 @@ def radial_structure(e):
     return Computed(kappa, doubt, follows=follows, paper={"value": 16.0, "resolution": 0.0})
 
 
-@statements.states(
+@states(
     "scaled-equation", "eqn:evolution_scaled", "gelpump.statements.derivations.radial_term", LINE
 )
 def scaled_equation(e):

@@ -6,7 +6,9 @@ volumes Int q dv and by the water that has left through each surface since the b
     d(lost)/dt = Int u.n ds over the surface, as the rows of its nodes give it,
 
 so that volume and loss add up to what was there at first, to the rounding of Newton's iteration,
-whatever the formula for d/dt: it is linear. Time is T = (t_0 + t)^2 where t is what
+whatever the formula for d/dt: it is linear. Where a mesh does not end with the gel, gel in a known
+state comes in, Z_t times the swollen volume of the section (times J), and its volume is added.
+Time is T = (t_0 + t)^2 where t is what
 `gelpump.bdf` steps in: everything begins as a power of the root of time.
 """
 
@@ -28,7 +30,8 @@ FIRST_STEP = 1e-2  # of the last root of time
 class Body:
     """Elements of a material; `prescribed` gives R and z, or R and Z, at a root of time.
 
-    `surfaces` are sets of pressure nodes with p = 0, `moves` the free directions of the unknowns.
+    `surfaces` are sets of pressure nodes with p = 0, `moves` the free directions of the unknowns,
+    `enters` gives the volume that comes in through the ends, by pressure node, per Z_t of the nodes.
     """
 
     elements: Elements
@@ -36,6 +39,7 @@ class Body:
     prescribed: Callable[[float], Mapping[str, NDArray]]
     surfaces: Mapping[str, NDArray]
     moves: csr_matrix
+    enters: csr_matrix | None = None
     root: float = 0.0
     tolerance: float = 1e-4
     size: int = field(init=False)
@@ -48,27 +52,30 @@ class Body:
         blocks = self.elements.blocks
         return {**self.prescribed(t), **{name: y[at] for name, at in blocks.items()}}
 
-    def steady(self, guess: NDArray, speed: float, load: NDArray) -> NDArray:
-        """The state that a front, whose label Z advances at `speed`, carries with it.
-
-        `load` is the volume of gel that enters through the ends, by pressure node.
-        """
-
-        def equations(y, tangent):
-            residual, slope = self.elements.residual_and_tangent(
-                self.fields(y), self.material, 0.0, speed, tangent
-            )
-            residual[self.elements.blocks["p"]] += load
-            return residual, slope
-
-        return newton(equations, guess, self.moves)
-
-    def outflow(self, y: NDArray, speed: float, load: NDArray) -> NDArray:
-        """Water that leaves per time at each pressure node in the state of `steady`."""
-        residual, _ = self.elements.residual_and_tangent(
-            self.fields(y), self.material, 0.0, speed, False
+    def rows(
+        self, y: NDArray, t: float, alpha: float, drift: NDArray | float, tangent: bool
+    ) -> tuple[NDArray, csr_matrix | None]:
+        """Residual and tangent, ends included; Z_t = alpha Z + `drift`."""
+        fields, p = self.fields(y, t), self.elements.blocks["p"]
+        residual, slope = self.elements.residual_and_tangent(
+            fields, self.material, alpha, drift, tangent
         )
-        return -(residual[self.elements.blocks["p"]] + load)
+        if self.enters is not None:
+            residual[p] -= self.enters @ (alpha * fields["Z"] + drift)
+            if tangent:
+                Z = self.elements.blocks["Z"]
+                at = self.enters.tocoo()
+                shape = (self.size, self.size)
+                slope = slope - alpha * csr_matrix((at.data, (p[at.row], Z[at.col])), shape)
+        return residual, slope
+
+    def steady(self, guess: NDArray, speed: float) -> NDArray:
+        """The state that a front, whose label Z advances at `speed`, carries with it."""
+        return newton(lambda y, tangent: self.rows(y, 0.0, 0.0, speed, tangent), guess, self.moves)
+
+    def outflow(self, y: NDArray, speed: float) -> NDArray:
+        """Water that leaves per time at each pressure node in the state of `steady`."""
+        return -self.rows(y, 0.0, 0.0, speed, False)[0][self.elements.blocks["p"]]
 
     def evolve(self, guess: NDArray, end: float, order: int = 3) -> Iterator[Step]:
         """Steps from the state `guess` at T = root^2 to T = end."""
@@ -84,9 +91,7 @@ class Body:
             drift = history[Z] if moving == "Z" else 0.0
 
             def equations(y, tangent):
-                residual, slope = elements.residual_and_tangent(
-                    self.fields(y, t), self.material, alpha, drift, tangent
-                )
+                residual, slope = self.rows(y, t, alpha, drift, tangent)
                 residual[p] += history[stored]
                 return residual, slope
 
@@ -109,6 +114,26 @@ class Body:
             first_step=FIRST_STEP * last,
             error_norm=error_norm,
         )
+
+
+def gates(elements: Elements, ends: Mapping[float, float]) -> csr_matrix:
+    """`Body.enters` for ends at xi_2 = key through which gel comes in, with J times +-1 = value.
+
+    The gel is uniform there: Z_t is that of the node in the middle.
+    """
+    radius, at = elements.pressure_nodes
+    R, share = elements.nodes
+    entries, rows, columns = [], [], []
+    for end, J in ends.items():
+        order = np.flatnonzero(np.isclose(at, end))
+        order = order[np.argsort(radius[order])]
+        a, b = radius[order[:-1]], radius[order[1:]]  # Int q R dR, in both nodes of an edge
+        entries += [J * (b - a) * (2 * a + b) / 6, J * (b - a) * (a + 2 * b) / 6]
+        rows += [order[:-1], order[1:]]
+        middle = np.abs(R - (R.min() + R.max()) / 2) + np.abs(share - end)
+        columns += 2 * [np.full(a.size, middle.argmin())]
+    at = np.concatenate(rows), np.concatenate(columns)
+    return csr_matrix((np.concatenate(entries), at), (radius.size, R.size))
 
 
 def free_moves(elements: Elements, held: Mapping[str, NDArray], tied: NDArray = ()) -> csr_matrix:

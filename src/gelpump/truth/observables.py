@@ -8,14 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import solve_banded
 from scipy.optimize import least_squares
 
 from gelpump.bdf import interpolation_weights
 from gelpump.truth.elements import Elements, Material, deformation
 from gelpump.truth.energy import polymer_stress
-from gelpump.tube.front import tanh_profile
+from gelpump.tube.front import WINDOW, tanh_profile
 
 LEVELS = (0.1, 0.5, 0.9)  # of the way from swollen to collapsed
+_x, _w = np.polynomial.legendre.leggauss(3)
+GAUSS = list(zip((1 + _x) / 2, _w / 2, strict=True))
 
 
 @dataclass(frozen=True)
@@ -120,8 +123,8 @@ def crossings(z: NDArray, values: NDArray, behind: float, ahead: float) -> NDArr
     return np.array(found)
 
 
-def sharpness(z: NDArray, Phi: NDArray, Phi_inf: float, window: float) -> tuple[float, float]:
-    """A of eqn:tanh_fit about z = 0 and the root-mean-square misfit.
+def sharpness(z: NDArray, Phi: NDArray, Phi_inf: float, window: float) -> float:
+    """A of eqn:tanh_fit about z = 0, with the least squared misfit.
 
     `window` is the half width of what is fitted, as in `gelpump.tube.front`. Simpson's rule in each
     element; at the window's edge an element counts as a whole or not at all.
@@ -132,28 +135,77 @@ def sharpness(z: NDArray, Phi: NDArray, Phi_inf: float, window: float) -> tuple[
     weight = np.sqrt(length[inside] / length[inside].sum())
     fit = least_squares(
         lambda log: weight * (value - tanh_profile(np.exp(log[0]) * x, Phi_inf)),
-        [np.log(4 / window)],
+        [-np.log(np.ptp(crossings(z, Phi, Phi[0], 1.0)) + 1e-3 * np.ptp(z))],
         xtol=1e-12,
         ftol=1e-12,
         gtol=1e-12,
     )
-    return float(np.exp(fit.x[0])), float(np.sqrt(2 * fit.cost))
+    return float(np.exp(fit.x[0]))
 
 
-def along_surface(
-    elements: Elements, nodes: NDArray, leaving: NDArray, z: NDArray
-) -> tuple[NDArray, NDArray]:
-    """z half-way between pressure nodes of a surface, and the water that leaves up to there.
+def front_numbers(seen: Section, front: float, Phi_inf: float, ell: float) -> dict[str, float]:
+    """What is told of a front at z = `front`; lengths in a_1.
 
-    `leaving` is what leaves at each pressure node, `z` where the nodes of x are.
+    Lengths of the front are from what is reached at the first line, far behind.
     """
-    share = elements.pressure_nodes[1][nodes]
-    order = np.argsort(share)
-    edge = elements.nodes[0] == elements.pressure_nodes[0][nodes][0]
-    here = np.interp(
-        (share[order][1:] + share[order][:-1]) / 2, *_sorted(elements.nodes[1][edge], z[edge])
+    z, Phi = seen.z[:, 0] - front, seen.along_middle("Phi")
+    radius = 2 * seen.along_middle("r") / (1 + ell)
+    at = int(np.abs(z).argmin())  # the first of the two lines at the front is the one behind
+    places = crossings(z, Phi, Phi[0], 1.0)
+    bent = crossings(z, radius, radius[0], 1.0)
+    return {
+        "Phi_behind": Phi[at],
+        "Phi_ahead": Phi[at + 1],
+        "jump": Phi[at] - Phi[at + 1],
+        "radius_front": radius[at],
+        "width_Phi": places[0] - places[-1],
+        "width_radius": bent[0] - bent[-1],
+        "A": sharpness(z, Phi, Phi_inf, np.inf),
+        "A_window": sharpness(z, Phi, Phi_inf, WINDOW * (1 - ell) / 4),
+        "overshoot": Phi.max() - Phi_inf,
+        "hoop_tension": seen.sigma_hoop.max(),
+        "hoop_compression": -seen.sigma_hoop.min(),
+    }
+
+
+def lumen(elements: Elements, fields: dict, leaving: NDArray, nodes: NDArray) -> dict[str, NDArray]:
+    """Along the inner surface, `nodes` of p: z, b_0, the volume of the lumen up to there and the
+    water that `leaving`, by pressure node, brings into it per time; 2 pi left out."""
+    order = np.flatnonzero(nodes)[np.argsort(elements.pressure_nodes[1][nodes])]
+    wall = elements.pressure_nodes[0][order[0]]
+    inside = np.flatnonzero(np.isclose(elements.nodes[0], wall))
+    inside = inside[np.argsort(elements.nodes[1][inside])]
+    z, b = fields["z"][inside], fields["r"][inside]
+    volume = sum(
+        weight * np.diff(z[::2], axis=0) * (_parabola(b, x) ** 2) / 2 for x, weight in GAUSS
     )
-    return here, np.cumsum(leaving[nodes][order])[:-1]
+    share = elements.pressure_nodes[1][order]
+    return {
+        "z": z[::2],
+        "b": b[::2],
+        "volume": np.r_[0.0, np.cumsum(volume)],
+        "inflow": running_loss(share, leaving[order]),
+    }
+
+
+def running_loss(share: NDArray, leaving: NDArray) -> NDArray:
+    """What leaves through a surface up to each of its pressure nodes, which lie at `share`.
+
+    `leaving` is what the rows of these nodes say, the integrals of shape functions times a density;
+    the density that is linear in each element and has these integrals is integrated.
+    """
+    length = np.diff(share)
+    mass = np.zeros((3, share.size))
+    mass[0, 1:] = mass[2, :-1] = length / 6
+    mass[1] = (np.r_[length, 0] + np.r_[0, length]) / 3
+    density = solve_banded((1, 1), mass, leaving)
+    return np.r_[0.0, np.cumsum(length * (density[1:] + density[:-1]) / 2)]
+
+
+def _parabola(values, x):
+    """Values in each element at x in (0, 1), from two ends and the middle."""
+    left, middle, right = values[:-2:2], values[1::2], values[2::2]
+    return left * (1 - x) * (1 - 2 * x) + 4 * middle * x * (1 - x) + right * x * (2 * x - 1)
 
 
 def _sorted(x, y):

@@ -8,7 +8,8 @@ T = tau/eps^2. The printed front (`gelpump.tube.heat`, lengths in L = a_1/eps) t
 eps is gone, and with it one tube at all T is the tube of every eps: T = 0.04 to 25 is eps from 0.5
 to 0.02 at tau = 0.01. The temperature of a place in *space* passes T_C when z = Z_C(T), whatever
 gel is there; mesh lines share = 0 lie on that plane, and those of share = -1 on z = 0, which is a
-plane of symmetry (Z = 0, no shear, no flow). The far end keeps its place, free of traction.
+plane of symmetry (Z = 0, no shear, no flow). The far end of the mesh keeps its place, free of
+traction, and swollen gel comes in there as the tube behind it becomes shorter.
 
 The run begins with the swollen tube when Z_C = START thicknesses; what this leaves of the true
 beginning decays as START sqrt(T_0/T).
@@ -20,7 +21,7 @@ import numpy as np
 
 from gelpump.bdf import Step
 from gelpump.materials.piecewise_linear import PiecewiseLinearGel
-from gelpump.truth.body import Body, free_moves
+from gelpump.truth.body import Body, free_moves, gates
 from gelpump.truth.elements import Elements
 from gelpump.truth.gel import two_states
 from gelpump.truth.mesh import from_front, wall_mesh
@@ -67,6 +68,7 @@ class Pulse:
                 self.elements,
                 {"p": self.inner | self.outer, "Z": np.isclose(self.share, -1)},
             ),
+            gates(self.elements, {1.0: 1.0}),
             self.root,
             tolerance,
         )
@@ -80,6 +82,18 @@ class Pulse:
             front + from_front(self.length - front, self.scale, self.share),
         )
         return {"R": self.R, "z": z}
+
+    def water(self, state: np.ndarray) -> tuple[float, float]:
+        """Water and gel that a state of `steps` accounts for, 2 pi left out, and what there was.
+
+        The volume of the gel, what has been lost, less what has come in through the far end.
+        """
+        size = self.elements.size
+        end = np.abs(self.share - 1) + np.abs(self.R - (1 + self.ell) / 2)
+        came = state[self.elements.blocks["Z"]][end.argmin()] - self.length
+        volume = state[size : size + self.elements.pressures.N].sum()
+        section = (1 - self.ell**2) / 2
+        return volume + state[-2:].sum() - came * section, self.length * section
 
     def steps(self) -> Iterator[Step]:
         """The states in time; `Step.times` are roots of T less the first one, `root`."""

@@ -26,7 +26,7 @@ def wall(ell: float, material: Material, cells: int, tolerance: float = 1e-5) ->
     )
     fixed = {"R": R, "Z": Z}
     surfaces = {"inner": inner, "outer": outer}
-    return Body(elements, material, lambda t: fixed, surfaces, moves, 0.0, tolerance)
+    return Body(elements, material, lambda t: fixed, surfaces, moves, tolerance=tolerance)
 
 
 def bead(material: Material, cells: tuple[int, int], tolerance: float = 1e-5) -> Body:
@@ -42,7 +42,9 @@ def bead(material: Material, cells: tuple[int, int], tolerance: float = 1e-5) ->
         {"r": centre | np.isclose(angle, 0), "z": centre | np.isclose(angle, 1), "p": surface},
     )
     fixed = {"R": R, "Z": Z}
-    return Body(elements, material, lambda t: fixed, {"surface": surface}, moves, 0.0, tolerance)
+    return Body(
+        elements, material, lambda t: fixed, {"surface": surface}, moves, tolerance=tolerance
+    )
 
 
 def undeformed(body: Body) -> np.ndarray:

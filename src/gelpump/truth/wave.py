@@ -20,12 +20,12 @@ import numpy as np
 
 from gelpump.bdf import NotConverged
 from gelpump.materials.piecewise_linear import PiecewiseLinearGel
-from gelpump.truth.body import Body, free_moves
+from gelpump.truth.body import Body, free_moves, gates
 from gelpump.truth.elements import Elements
 from gelpump.truth.gel import two_states
 from gelpump.truth.mesh import from_front, wall_mesh
 
-SCALE = 0.4  # thickness of the wall: within this distance of the front cells are of one length
+SCALE = 0.8  # thickness of the wall: within this distance of the front cells are of one length
 BENDING, DIFFUSING = 7.0, 4.0  # lengths of the box: sqrt(mean radius x thickness), thickness
 
 
@@ -52,7 +52,7 @@ class Wave:
             from_front(reach, SCALE * thickness, share),
         )
         hot = self.elements.mesh.p[1][self.elements.mesh.t].mean(axis=0) < 0
-        radius, at = self.elements.pressure_nodes
+        radius, _ = self.elements.pressure_nodes
         self.inner, self.outer = np.isclose(radius, ell), np.isclose(radius, 1)
         middle = np.flatnonzero(np.isclose(R, (1 + ell) / 2) & (share == 0))
         self.body = Body(
@@ -61,8 +61,8 @@ class Wave:
             lambda t: {"R": R, "z": z},
             {"inner": self.inner, "outer": self.outer},
             free_moves(self.elements, {"p": self.inner | self.outer, "Z": middle}),
+            gates(self.elements, {1.0: 1.0, -1.0: -1 / gel.Phi_inf}),
         )
-        self.enters = _section(radius, at == 1) - _section(radius, at == -1) / gel.Phi_inf
 
     def solve(self, Pe: Sequence[float]) -> list[np.ndarray]:
         """The unknowns at each of the ascending `Pe`, from one to the next."""
@@ -83,7 +83,7 @@ class Wave:
         target = Pe
         for _ in range(20):
             try:
-                y, reached = self.body.steady(y, *self._carried(target)), target
+                y, reached = self.body.steady(y, target / (1 - self.ell)), target
             except NotConverged:
                 target = (reached + target) / 2
                 continue
@@ -94,18 +94,4 @@ class Wave:
 
     def outflow(self, y: np.ndarray, Pe: float) -> np.ndarray:
         """Water that leaves per time at each pressure node."""
-        return self.body.outflow(y, *self._carried(Pe))
-
-    def _carried(self, Pe):
-        speed = Pe / (1 - self.ell)
-        return speed, -speed * self.enters
-
-
-def _section(radius, chosen):
-    """Int q R dR along the pressure nodes `chosen`, by node."""
-    load = np.zeros(radius.size)
-    order = np.flatnonzero(chosen)[np.argsort(radius[chosen])]
-    a, b = radius[order[:-1]], radius[order[1:]]
-    np.add.at(load, order[:-1], (b - a) * (2 * a + b) / 6)
-    np.add.at(load, order[1:], (b - a) * (a + 2 * b) / 6)
-    return load
+        return self.body.outflow(y, Pe / (1 - self.ell))

@@ -37,6 +37,7 @@ include: "workflow/rules/design.smk"
 include: "workflow/rules/sweep_plans.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/performance.smk"
+include: "workflow/rules/truth.smk"
 
 
 rule all:

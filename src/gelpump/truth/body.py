@@ -31,7 +31,7 @@ class Body:
     """Elements of a material; `prescribed` gives R and z, or R and Z, at a root of time.
 
     `surfaces` are sets of pressure nodes with p = 0, `moves` the free directions of the unknowns,
-    `enters` gives the volume that comes in through the ends, by pressure node, per Z_t of the nodes.
+    `enters` gives the volume that comes in through the ends, by pressure node, per Z_t of nodes.
     """
 
     elements: Elements

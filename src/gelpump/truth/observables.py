@@ -101,6 +101,13 @@ def mean_polymer_fraction(elements: Elements, fields: dict) -> tuple[NDArray, ND
     return z, np.bincount(which, (wet / F.J).ravel()) / total
 
 
+def mean_width(elements: Elements, fields: dict) -> float:
+    """Length from 10 to 90 % of the wall's mean polymer fraction."""
+    z, Phi = mean_polymer_fraction(elements, fields)
+    places = crossings(z, Phi, Phi[0], 1.0)
+    return places[0] - places[-1]
+
+
 def crossings(z: NDArray, values: NDArray, behind: float, ahead: float) -> NDArray:
     """z where a profile last is on its way from `behind` to `ahead`, at each of LEVELS.
 

@@ -3,8 +3,8 @@
 Lengths are in a_1 and times in mu_l a_1^2/(k Pi_00): a time is tau/eps^2, a velocity eps V and a
 sharpness A eps in the paper's scaling. Volumes leave out pi: they are in pi a_1^2 times a_1.
 
-The value is that of the middle mesh; its uncertainty is the grid-convergence index of the three and,
-where there is a time, that of three time tolerances.
+The value is that of the middle mesh; its uncertainty is the grid-convergence index of the three
+and, where there is a time, that of three time tolerances.
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,7 +16,7 @@ from gelpump import progress
 from gelpump.bdf import derivative_weights
 from gelpump.materials.piecewise_linear import PiecewiseLinearGel
 from gelpump.netcdf import variable
-from gelpump.truth.observables import front_numbers, lumen, running_loss, section
+from gelpump.truth.observables import front_numbers, lumen, mean_width, running_loss, section
 from gelpump.truth.pulse import Pulse
 from gelpump.truth.wave import Wave
 from gelpump.tube.heat import StepHeating
@@ -37,6 +37,7 @@ MEANING = {
         "length of the front, 10 to 90 % of polymer fraction, middle of the wall",
         LENGTH,
     ),
+    "width_mean": ("length of the front, 10 to 90 % of the wall's mean polymer fraction", LENGTH),
     "width_radius": ("length of the front, 10 to 90 % of the radius, middle of the wall", LENGTH),
     "A": ("sharpness of the front, fitted to all of the profile", "in units of 1/a_1, A eps"),
     "A_window": ("sharpness of the front, fitted within 8 w of it", "in units of 1/a_1, A eps"),
@@ -53,11 +54,23 @@ MEANING = {
 }
 
 
+FIELDS = {
+    "r": ("radius", LENGTH),
+    "z": ("axial position less that of the front", LENGTH),
+    "Phi": ("polymer fraction", "in units of phi_00"),
+    "p": ("pore pressure", STRESS),
+    "sigma_hoop": ("hoop stress", STRESS),
+    "u_r": ("radial interstitial flux", VELOCITY),
+    "u_z": ("axial interstitial flux", VELOCITY),
+}
+
+
 def wave_numbers(wave: Wave, y: np.ndarray, Pe: float) -> dict[str, float]:
     """All of MEANING that a wave has."""
     fields, Phi_inf, ell = wave.body.fields(y), wave.gel.Phi_inf, wave.ell
     seen = section(wave.elements, fields, wave.body.material)
     numbers = front_numbers(seen, 0.0, Phi_inf, ell)
+    numbers["width_mean"] = mean_width(wave.elements, fields)
     leaving = wave.outflow(y, Pe)
     inside = lumen(wave.elements, fields, leaving, wave.inner)
     speed = Phi_inf ** (-1 / 3) * Pe / (1 - ell)
@@ -66,8 +79,8 @@ def wave_numbers(wave: Wave, y: np.ndarray, Pe: float) -> dict[str, float]:
     return numbers | _flows(wave.elements, leaving, flux, inside["b"])
 
 
-def pulse_numbers(pulse: Pulse, step, root: float) -> dict[str, float]:
-    """All of MEANING that a pulse has, at a root of time within or at the end of a step."""
+def pulse_numbers(pulse: Pulse, step, root: float) -> tuple[dict[str, float], dict]:
+    """All of MEANING that a pulse has, and FIELDS, at a root of time within a step."""
     elements, size = pulse.elements, pulse.elements.size
     roots = np.r_[root, step.times[step.times != root]]
     weights = derivative_weights(roots)
@@ -78,6 +91,7 @@ def pulse_numbers(pulse: Pulse, step, root: float) -> dict[str, float]:
     seen = section(elements, fields, pulse.body.material)
     front = float(pulse.heat.front((pulse.root + root) ** 2))
     numbers = front_numbers(seen, front, pulse.gel.Phi_inf, pulse.ell)
+    numbers["width_mean"] = mean_width(elements, fields)
     drift = history[elements.blocks["Z"]]
     residual, _ = pulse.body.rows(states[0][:size], root, alpha, drift, False)
     leaving = -(residual[elements.blocks["p"]] + history[size : size + elements.pressures.N])
@@ -91,14 +105,17 @@ def pulse_numbers(pulse: Pulse, step, root: float) -> dict[str, float]:
     flux = moving * here["b"] ** 2 / 2 - change + here["inflow"]
     swollen = pulse.ell**2 / 2 * pulse.length
     lost = states[0][-2:]
-    return (
-        numbers
-        | _flows(elements, leaving, flux, here["b"])
-        | {
-            "pumped": 2 * (swollen - here["volume"][-1] + lost[0]),
-            "lost": 2 * lost.sum(),
-        }
-    )
+    numbers |= _flows(elements, leaving, flux, here["b"])
+    numbers["pumped"] = 2 * (swollen - here["volume"][-1] + lost[0])
+    numbers["lost"] = 2 * lost.sum()
+    picture = {name: getattr(seen, name) for name in FIELDS}
+    picture["z"] = picture["z"] - front
+    picture |= {
+        "lumen_z": here["z"] - front,
+        "lumen_b": here["b"],
+        "lumen_V": 2 * flux / here["b"] ** 2,
+    }
+    return numbers, picture
 
 
 def _flows(elements, leaving, flux, b):
@@ -147,27 +164,56 @@ def waves(
     )
 
 
+def other_gels(
+    block: Mapping, M: Sequence[float], ell: float, Pe: float, cells: Sequence[int]
+) -> xr.Dataset:
+    """A wave of gels with other shear moduli, and with the energy's second invariant; dims (M,).
+
+    The energy's change of a number is what it gains with c = 1 in place of c = 0.
+    """
+    gels = [PiecewiseLinearGel(block["Phi_inf"], block["Pi_ratio"], each) for each in M]
+
+    def numbers(mesh, c=0.0):
+        found = []
+        for gel in gels:
+            wave = Wave(ell, gel, mesh, c, Pe)
+            found.append(wave_numbers(wave, wave.solve([Pe])[-1], Pe))
+        return _stacked(found)
+
+    levels = [numbers(mesh) for mesh in _three(cells)]
+    other = numbers(_three(cells)[1], c=1.0)
+    coords = {"M": variable("M", np.array(M, float), "shear modulus over Pi_00")}
+    data = _with_uncertainty(levels, ("M",), coords)
+    for name, value in levels[1].items():
+        text = f"{MEANING[name][0]}: change with the energy's second invariant"
+        data[f"{name}_energy"] = variable("M", other[name] - value, text, MEANING[name][1])
+    named = {name: f"{name}_M" for name in data.data_vars}
+    return data.rename(named).assign(verified_ell=variable((), ell, "ell of the waves of other M"))
+
+
 def peclet(values):
     """The coordinate Pe."""
     return variable(
         "Pe",
         np.array(values, float),
         "speed of the front in the swollen tube times the thickness of its wall",
-        "in units of k Pi_00/mu_l; Phi_inf^(1/3) eps (1-ell) dZ_C/dtau, 4 w Phi_inf^(1/3) dZ_C/dtau",
+        "in units of k Pi_00/mu_l: Phi_inf^(1/3) eps (1-ell) dZ_C/dtau",
     )
 
 
 def pulses(
     gel: PiecewiseLinearGel,
     Le: float,
-    ells: Sequence[float],
+    ell: Sequence[float],
     T: Sequence[float],
+    drawn: float,
     cells: Sequence[int],
     tolerance: float,
 ) -> xr.Dataset:
     """Tubes behind the printed front at the times T; dims (ell, T).
 
-    Meshes are compared at the second of three tolerances, each ten times the one before.
+    Meshes are compared at the third of three tolerances, which are sqrt(10) and 10 times the first.
+    FIELDS are those of the first at the time of T nearest to `drawn`.
     """
     coarse, middle, fine = _three(cells)
     loose, looser = 10**0.5 * tolerance, 10 * tolerance
@@ -178,31 +224,43 @@ def pulses(
         (coarse, looser),
         (fine, looser),
     ]
-    runs, worst = [], 0.0
+    shown = int(np.abs(np.asarray(T) - drawn).argmin())
+    runs, worst, pictures = [], 0.0, []
     for i, (mesh, each) in enumerate(plan):
         rows = []
-        for ell in ells:
-            found, error = pulse_at(Pulse(ell, gel, StepHeating(Le), T[-1], mesh, each), T)
-            rows.append(_stacked(found))
+        for j, each_ell in enumerate(ell):
+            seen, error = pulse_at(Pulse(each_ell, gel, StepHeating(Le), T[-1], mesh, each), T)
+            rows.append(_stacked([numbers for numbers, _ in seen]))
             worst = max(worst, error)
+            if i == 0:
+                pictures.append(seen[shown][1])
+            progress.at(i + (j + 1.0) / len(ell), len(plan))
         runs.append(_stacked(rows))
-        progress.at(i + 1.0, len(plan))
     best, middle_run, loosest, rough, dense = runs
     coords = {
-        "ell": ell_coordinate(np.array(ells)),
+        "ell": ell_coordinate(np.array(ell)),
         "T": variable("T", np.array(T, float), "elapsed time", TIME),
     }
-    data = {}
+    data = {"Le": variable((), Le, "Lewis number")}
     for name, value in best.items():
         error = convergence_index(rough[name], loosest[name], dense[name])
         error = error + convergence_index(loosest[name], middle_run[name], value)
         data |= _variables(name, ("ell", "T"), value, error)
-    dataset = xr.Dataset(data, coords)
-    dataset.attrs["water_balance_error"] = worst
-    return dataset
+    picture = _stacked(pictures)
+    for name, (long_name, comment) in FIELDS.items():
+        data[name] = variable(("ell", "line", "across"), picture[name], long_name, comment)
+    for name, text, comment in (
+        ("lumen_z", "axial position along the inner surface less that of the front", LENGTH),
+        ("lumen_b", "radius of the lumen", LENGTH),
+        ("lumen_V", "mean axial velocity in the lumen", VELOCITY),
+    ):
+        data[name] = variable(("ell", "node"), picture[name], text, comment)
+    data["drawn_T"] = variable((), T[shown], "time of the fields", TIME)
+    data["water_balance_error"] = variable((), worst, "largest share of water unaccounted for")
+    return xr.Dataset(data, coords)
 
 
-def pulse_at(pulse: Pulse, T: Sequence[float]) -> tuple[list[dict], float]:
+def pulse_at(pulse: Pulse, T: Sequence[float]) -> tuple[list[tuple[dict, dict]], float]:
     """`pulse_numbers` at each of T, and the largest share of the water unaccounted for."""
     roots = np.sqrt(np.asarray(T)) - pulse.root
     if not roots[0] > 0:

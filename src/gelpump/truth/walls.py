@@ -43,11 +43,14 @@ def collapse_time(
     for step in body.evolve(undeformed(body), LONGEST * (1 - ell) ** 2):
         for reached in (middle, mean):
             if reached not in found and reached(step.solution) >= 0:
-                root = brentq(lambda t, f=reached: f(step.at(t)), step.start, step.time, xtol=1e-13)
-                found[reached] = (root / (1 - ell)) ** 2
+                found[reached] = (_root(reached, step) / (1 - ell)) ** 2
         if len(found) == 2:
             return found[middle], found[mean]
     raise RuntimeError(f"ell = {ell}: the wall has not collapsed by {LONGEST} (1-ell)^2")
+
+
+def _root(function, step):
+    return brentq(lambda t: function(step.at(t)), step.start, step.time, xtol=1e-13)
 
 
 def collapse_times(

@@ -1,0 +1,106 @@
+# The tube in two dimensions, and how good the slender one is: `snakemake --cores 2 pump_truth`.
+# Needs requirements-truth.txt; no part of a rebuild.
+
+TRUTH = "results/truth"
+
+
+def truth_settings(*names):
+    """The blocks of config["truth"] that a rule takes, and the tube's gel."""
+    return {name: config["truth"][name] for name in names}
+
+
+rule pump_truth:
+    input:
+        expand(f"{TRUTH}/{{name}}.nc", name=["waves", "verification", "slenderness"]),
+        expand(
+            f"{TRUTH}/{{figure}}.{{suffix}}",
+            figure=["figX3_slenderness", "figX3_fields"],
+            suffix=["pdf", "png", "svg", "csv"],
+        ),
+        f"{TRUTH}/statements.md",
+    localrule: True
+
+
+rule truth_waves:
+    input:
+        src=modules("truth_waves"),
+    output:
+        f"{TRUTH}/waves.nc",
+    log:
+        "results/logs/truth_waves.log",
+    benchmark:
+        "results/benchmarks/truth_waves.tsv"
+    params:
+        gel=tube_gel,
+        settings=truth_settings("ell", "M", "waves", "verified"),
+    script:
+        "../scripts/truth_waves.py"
+
+
+rule truth_pulses:
+    input:
+        src=modules("truth_pulses"),
+    output:
+        f"{TRUTH}/pulses.nc",
+    log:
+        "results/logs/truth_pulses.log",
+    benchmark:
+        "results/benchmarks/truth_pulses.tsv"
+    priority: 3
+    params:
+        gel=tube_gel,
+        Le=config["tube"]["Le"],
+        settings=truth_settings("pulses"),
+    script:
+        "../scripts/truth_pulses.py"
+
+
+rule truth_walls:
+    input:
+        src=modules("truth_walls"),
+    output:
+        f"{TRUTH}/walls.nc",
+    log:
+        "results/logs/truth_walls.log",
+    benchmark:
+        "results/benchmarks/truth_walls.tsv"
+    priority: 2
+    params:
+        gel=tube_gel,
+        settings=truth_settings("ell", "M", "walls"),
+    script:
+        "../scripts/truth_walls.py"
+
+
+rule truth_verification:
+    input:
+        src=modules("truth_verification"),
+    output:
+        f"{TRUTH}/verification.nc",
+    log:
+        "results/logs/truth_verification.log",
+    benchmark:
+        "results/benchmarks/truth_verification.tsv"
+    params:
+        gel=tube_gel,
+        bead_gel=config["gels"].get(config["truth"]["bead"]["gel"]),
+        settings=truth_settings("bead", "verified"),
+    script:
+        "../scripts/truth_verification.py"
+
+
+rule slenderness:
+    input:
+        pulses=f"{TRUTH}/pulses.nc",
+        walls=f"{TRUTH}/walls.nc",
+        src=modules("slenderness"),
+    output:
+        f"{TRUTH}/slenderness.nc",
+    log:
+        "results/logs/slenderness.log",
+    benchmark:
+        "results/benchmarks/slenderness.tsv"
+    params:
+        gel=tube_gel,
+    script:
+        "../scripts/slenderness.py"

@@ -42,7 +42,7 @@ GEL = "src/gelpump/materials/energy_based.py"
 LINEAR = "src/gelpump/materials/piecewise_linear.py"
 LENS = "src/gelpump/bead/lens.py"
 NONLINEAR = "src/gelpump/bead/nonlinear.py"
-SLENDER = "src/gelpump/tube/slender.py"
+FAMILY = "src/gelpump/tube/family.py"
 CLOSURE = "src/gelpump/tube/closure.py"
 PAPER = "config/config.yaml"
 TEST_GEL = "tests/materials/test_energy_based.py"
@@ -190,7 +190,7 @@ MUTANTS = (
     ),
     Mutant(
         "the tube's integral skipped",
-        SLENDER,
+        FAMILY,
         "shift = (Z_C - (stretch * V)",
         "shift = (Z_C - V",
         TEST_SLENDER,

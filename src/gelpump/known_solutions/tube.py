@@ -13,7 +13,7 @@ Phi leaves a remainder H,
     H = Phi_tau + (D/Phi) Phi_Z^2 - (1/3) Phi^{-1/3} Phi_Z Integral_0^Z Phi^{-2/3} Phi_tau du
         - F - (D Phi_Z)_Z ,
 
-which the production solver (``slender.Family``: its mesh, fluxes, Jacobian, front and time steps)
+which the production solver (``family.Family``: its mesh, fluxes, Jacobian, front and time steps)
 gets as a source beside its own: S + lambda^4 H/3.  That it then returns Phi verifies the passage
 from the printed equation to the material one as well, integral and jump included.  For the closures
 that conserve water (`gelpump.tube.closure`) the left side has (2/3)(D/Phi) Phi_Z^2 more, F the w
@@ -44,6 +44,7 @@ from gelpump.bdf import integrate
 from gelpump.known_solutions.study import Study, one_run, space, time
 from gelpump.tube import slender
 from gelpump.tube.closure import Printed, named
+from gelpump.tube.family import PRINTED
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.tubes import Tubes
 
@@ -63,7 +64,7 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
 class Manufactured:
     """The solution of the module's docstring for one tube; lengths in L, tau as in the paper."""
 
-    def __init__(self, tubes: Tubes, heat, closure: Printed = slender.PRINTED):
+    def __init__(self, tubes: Tubes, heat, closure: Printed = PRINTED):
         self.closure = closure
         self.w, self.M = float(closure.wall_length(tubes)), float(tubes.M)
         self.hot = float(tubes.Pi_ratio / tubes.Phi_inf), float(tubes.Phi_inf)

@@ -394,7 +394,7 @@ def test_errors_of_a_measured_gel_reach_the_numbers():
     """Linear propagation against gels drawn from the covariance itself."""
     gel, fit = measured_gel()
     given = block("millitube") | {"gel": "synthetic", "critical_temperature": "303 K"}
-    errors = gel_errors("mine", given, gel, fit)
+    errors = gel_errors("mine", given, fit)
     rng = np.random.default_rng(1)
     axes = np.linalg.eigh(fit.covariance)
     drawn = []
@@ -411,8 +411,8 @@ def test_errors_of_a_measured_gel_reach_the_numbers():
 
 
 def test_a_gel_that_its_errors_make_impossible_is_told_so():
-    gel, fit = measured_gel()
+    _, fit = measured_gel()
     wide = replace(fit, covariance=1e6 * fit.covariance)
     with pytest.raises(description.DesignError) as refusal:
-        gel_errors("mine", block("millitube") | {"gel": "synthetic"}, gel, wide)
+        gel_errors("mine", block("millitube") | {"gel": "synthetic"}, wide)
     assert "not carried over" in gel_note(refusal.value)

@@ -26,7 +26,7 @@ with open(workflow.source_path("../schemas/config.schema.yaml")) as stream:
 
 
 def fitted_gels():
-    """Put what fits them in place of measured gels; the files of their points, by gel.
+    """Put what fits them in place of measured gels; how they were measured, by gel.
 
     What there is to beware of is said once, before any job.
     """
@@ -126,7 +126,7 @@ def tube_gel(wildcards):
 
 def measured_points(wildcards):
     """The file that a measured gel was fitted to."""
-    return MEASURED.get(wildcards.gel, [])
+    return MEASURED.get(wildcards.gel, {}).get("points", [])
 
 
 def told(name):

@@ -20,6 +20,7 @@ rule design:
     params:
         block=checked_design,
         gels=lambda wildcards: design_gels(checked_design(wildcards)),
+        measured=design_measured,
         numerics={
             "tube": config["numerics"]["tube_pulse"],
             "bead": config["numerics"]["bead_lens"],

@@ -36,7 +36,12 @@ def design_input(wildcards):
     return design_file(wildcards)
 
 
+def design_measured(wildcards):
+    """How the design's gel was measured, if it is a measured one."""
+    block = checked_design(wildcards)
+    return MEASURED.get(str(block.get("gel")), {}) if isinstance(block, dict) else {}
+
+
 def design_points(wildcards):
     """The file that the design's gel was fitted to, if it is a measured one."""
-    block = checked_design(wildcards)
-    return MEASURED.get(str(block.get("gel")), []) if isinstance(block, dict) else []
+    return design_measured(wildcards).get("points", [])

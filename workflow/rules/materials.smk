@@ -20,7 +20,7 @@ rule materials:
         "../scripts/materials.py"
 
 
-# Your gel: `snakemake --cores 2 gel_NAME` for any energy-based or measured gel of the configuration.
+# Your gel: `snakemake --cores 2 gel_NAME` for any gel of the configuration with a free energy, or a measured one.
 
 
 rule gel:
@@ -37,6 +37,7 @@ rule gel:
         "results/benchmarks/gel_{gel}.tsv"
     params:
         gel=lambda wildcards: config["gels"][wildcards.gel],
+        measured=lambda wildcards: MEASURED.get(wildcards.gel, {}),
         tables=config["materials"],
     script:
         "../scripts/gel.py"

@@ -16,12 +16,10 @@ with job(snakemake) as provenance:
     params, name = snakemake.params, snakemake.wildcards.name
     design = description.checked(name, params.block, params.gels)
     errors = fit = None
-    if snakemake.input.points:
-        gel = params.gels[params.block["gel"]]
-        points = measured.read(snakemake.input.points)
-        fit = measured.fit(params.block["gel"], points, gel["temperature_range"])
+    if params.measured:
+        _, fit = measured.measured(params.block["gel"], params.measured)
         try:
-            errors = gel_errors.gel_errors(name, params.block, gel, fit)
+            errors = gel_errors.gel_errors(name, params.block, fit)
         except description.DesignError as refusal:
             errors = refusal
     data = dataset.assemble(design, params.numerics[design.kind], errors, fit)

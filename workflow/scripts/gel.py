@@ -1,5 +1,6 @@
 """Rule gel: an energy-based or measured gel, its fit, and the jumps that part phases."""
 
+import pint  # noqa: F401  before `job` hides from xarray what is not imported
 from _helpers import job
 
 with job(snakemake) as provenance:
@@ -12,9 +13,8 @@ with job(snakemake) as provenance:
 
     name, block = snakemake.wildcards.gel, snakemake.params.gel
     gel, settings, fit, points = from_config(name, block), snakemake.params.tables, None, None
-    if snakemake.input.points:
-        points = measured.read(snakemake.input.points)
-        fit = measured.fit(name, points, block["temperature_range"])
+    if snakemake.params.measured:
+        points, fit = measured.measured(name, snakemake.params.measured)
         for warning in fit.warnings:
             print(f"WARNING {warning}")
     data = sheet.assembled(
@@ -24,7 +24,7 @@ with job(snakemake) as provenance:
         data,
         snakemake.output.data,
         title=f"{name}: equilibrium, spinodal and jumps that separate phases",
-        parameters={"gel": block, "tables": settings},
+        parameters={"gel": block, "measured": snakemake.params.measured, "tables": settings},
         provenance=provenance,
     )
     columns = [Column(each, each) for each in ("quantity", "value", "uncertainty or reason")]

@@ -15,13 +15,13 @@ import numpy as np
 
 from gelpump.design.description import DesignError, checked
 from gelpump.design.device import results
-from gelpump.materials.measured import NAMES, Fit
+from gelpump.materials.measured import Fit
 
 STEP = 0.1  # of a standard error
 
 
-def gel_errors(name: str, block: Mapping, gel: Mapping, fit: Fit) -> dict[str, float]:
-    """Standard error of each number of the design ``block`` whose gel has the block ``gel``.
+def gel_errors(name: str, block: Mapping, fit: Fit) -> dict[str, float]:
+    """Standard error of each number of the design ``block`` whose gel is the fitted one.
 
     DesignError if a gel within the errors makes the design impossible.
     """
@@ -32,8 +32,7 @@ def gel_errors(name: str, block: Mapping, gel: Mapping, fit: Fit) -> dict[str, f
         ends = []
         for sign in (1, -1):
             values = fit.parameters + sign * STEP * shift
-            moved = dict(gel) | dict(zip(NAMES, map(float, values), strict=True))
-            design = checked(name, block, {block["gel"]: moved})
+            design = checked(name, block, {block["gel"]: fit.block(values)})
             ends.append({each.key: each.value for each in results(design)})
         for key, up in ends[0].items():
             total[key] = total.get(key, 0.0) + ((up - ends[1][key]) / (2 * STEP)) ** 2

@@ -1,163 +1,172 @@
-"""A gel known by measured equilibria phi_0(T), fitted to the energy-based form (appendix A).
+"""A gel known by measured equilibria phi_0(T), fitted to the families of `flory_rehner`.
 
-At an equilibrium eqn:phi_0_full says, with w = 1/Omega and -ln(1-phi) - phi written as t(phi),
+At an equilibrium Pi = 0 says, with w = 1/Omega, s = T or 1/T and t(phi) = -ln(1-phi) - phi,
 
-    r = t(phi)/phi^2 + w (phi - phi^{1/3})/phi^2 - (A0-A1) - (B0-B1) T - 2 phi (A1 + B1 T) = 0 ,
+    r = [t + w (kappa phi - phi^{1/3})]/phi^2 - (p_1 + q_1 s) - phi (p_2 + q_2 s) - phi^2 p_3 = 0 ,
 
-linear in the five parameters. The fit minimises the sum of r^2/s^2, s^2 = (r_phi s_phi)^2 +
+linear in the parameters. The fit minimises chi^2, the sum of r^2/S^2, S^2 = (r_phi s_phi)^2 +
 (r_T s_T)^2, which is the orthogonal distance of the points from the curve to first order. (Weighted
 linear least squares, from which it starts, would be biased: phi and T with their errors stand in
-both r and its slopes.) The covariance follows from the slopes of r/s at the minimum; where errors
-are not given, it is scaled by the scatter.
+both r and its slopes.) The covariance follows from the slopes of r/S at the minimum; where errors
+are not given, it is scaled by the scatter, and S only weighs.
+
+FORMS are the families. Of those that go through the points with each on a stable branch, the one
+with the least k ln n + chi^2 is taken (Bayes' information criterion for n points and k parameters;
+n ln chi^2 where errors are not given).
 """
 
-import csv
-import math
 import warnings
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .energy_based import EnergyBasedGel
-from .explicit import log_tail
+from .explicit import ExplicitGel, log_tail
+from .flory_rehner import GAS_CONSTANT, LOGARITHM, FloryRehnerGel
+from .measurements import BRANCHES, KEYS, USUAL_ERROR, Points, read
 
-NAMES = ("A0", "A1", "B0", "B1", "Omega")
-COLUMNS = ("temperature", "polymer_fraction")
-ERRORS = ("temperature_error", "polymer_fraction_error")
-FEWEST, MOST = 6, 10_000
-COLDEST, HOTTEST = 200.0, 500.0  # K: outside, the column is hardly in kelvin
-USUAL_ERROR = {"temperature_error": 0.1, "polymer_fraction_error": 0.01}  # second one relative
+NAMES = ("A0", "A1", "B0", "B1", "Omega")  # of the form appendix-A
 COLLAPSED = 0.25  # polymer fraction: above it a gel counts as collapsed
 FAR = 5.0  # standard errors, or scatters, from a stable branch, at which a point is not on it
+WORST = 25.0  # chi^2 per degree of freedom beyond which a form does not represent the points
+DRAWS = 200  # of a bootstrap
 
 
 @dataclass(frozen=True)
-class Points:
-    """Measured T (K) and phi_0 with their errors; whether these were given."""
+class Form:
+    """A family: whether s = 1/T, and which of p_1, q_1, p_2, q_2, p_3 are free."""
 
-    T: NDArray
-    phi: NDArray
-    T_error: NDArray
-    phi_error: NDArray
-    errors_given: bool
+    inverse: bool
+    free: tuple[int, ...]
+
+
+FORMS = {
+    "linear": Form(False, (0, 1, 2)),
+    "theta": Form(True, (0, 1, 2)),
+    "linear-3": Form(False, (0, 1, 2, 4)),
+    "theta-3": Form(True, (0, 1, 2, 4)),
+    "appendix-A": Form(False, (0, 1, 2, 3)),
+}
+COEFFICIENTS = ("chi_1", "chi_1_slope", "chi_2", "chi_2_slope", "chi_3")
 
 
 @dataclass(frozen=True)
 class Fit:
-    """The gel, the covariance of NAMES, chi^2 per degree of freedom, and what to beware of."""
+    """The gel, the covariance of its parameters, chi^2 per degree of freedom, the residuals in
+    errors, Bayes' criterion, what to beware of, and why other forms were not taken."""
 
-    gel: EnergyBasedGel
+    gel: ExplicitGel
+    form: str
     covariance: NDArray
     reduced_chi2: float
-    warnings: tuple[str, ...]
+    residuals: NDArray
+    criterion: float
+    network: tuple[str, float]
+    warnings: tuple[str, ...] = ()
+    passed_over: tuple[str, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the parameters, in the order of the covariance."""
+        return names(self.form)
 
     @property
     def parameters(self) -> NDArray:
-        """The values of NAMES."""
-        return np.array([getattr(self.gel, name) for name in NAMES])
+        """Their values."""
+        known = self.gel.parameters
+        return np.array([known[name][0] if name in known else 0.0 for name in self.names])
 
     @property
     def errors(self) -> NDArray:
         """Their standard errors."""
         return np.sqrt(np.diag(self.covariance))
 
+    def block(self, parameters: NDArray | None = None) -> dict[str, Any]:
+        """The config block of the gel, or of one with these parameters."""
+        given = self.parameters if parameters is None else parameters
+        span = list(self.gel.temperature_range)
+        values = dict(zip(self.names, map(float, given), strict=True))
+        if self.form == "appendix-A":
+            return {"model": "energy-based"} | values | {"temperature_range": span}
+        kind, phi_ref = self.network
+        pair = ("enthalpy", "entropy") if FORMS[self.form].inverse else ("constant", "slope")
+        p, q = values["chi_1"], values["chi_1_slope"]
+        both = (GAS_CONSTANT * q, -GAS_CONSTANT * p) if FORMS[self.form].inverse else (p, q)
+        chi = {"chi_1": dict(zip(pair, both, strict=True)), "chi_2": values["chi_2"]}
+        share = 0.5 if kind == "phantom" else 1.0  # of four chains a junction
+        return {
+            "model": "flory-rehner",
+            "chi": chi | ({"chi_3": values["chi_3"]} if "chi_3" in values else {}),
+            "network": {
+                "elasticity": kind,
+                "reference_polymer_fraction": phi_ref,
+                "chain_length": values["Omega"] * share * phi_ref ** (2 / 3),
+            },
+            "temperature_range": span,
+        }
 
-def read(path: str | Path) -> Points:
-    """The points of a CSV with the columns temperature (K) and polymer_fraction, and, if known,
-    temperature_error (K) and polymer_fraction_error.
 
-    ValueError, with the line, for anything else.
+def names(form: str) -> tuple[str, ...]:
+    """The parameters of a form."""
+    if form == "appendix-A":
+        return NAMES
+    return (*(COEFFICIENTS[i] for i in FORMS[form].free), "Omega")
+
+
+def fit(
+    name: str,
+    points: Points,
+    temperature_range=None,
+    form: str = "appendix-A",
+    network: tuple[str, float] = ("neo-Hookean", 1.0),
+    checked: bool = True,
+) -> Fit:
+    """The gel of one form through the points; ValueError if they do not determine one, or, when
+    ``checked``, if the form does not represent them.
+
+    network: kind of elasticity and the polymer fraction at which the chains are relaxed.
     """
-    try:
-        with open(path, encoding="utf-8-sig", newline="") as stream:
-            text = stream.read(10_000_000)
-        lines = list(csv.reader(text.splitlines(), strict=True))
-    except (OSError, UnicodeError, csv.Error) as problem:
-        raise ValueError(f"{path}: cannot be read: {problem}") from problem
-    rows = [(i, line) for i, line in enumerate(lines, 1) if line and not line[0].startswith("#")]
-    if not rows:
-        raise ValueError(f"{path}: is empty; must begin with the columns {', '.join(COLUMNS)}")
-    number, heading = rows[0]
-    names = [name.strip() for name in heading]
-    known = {*COLUMNS, *ERRORS}
-    if len(set(names)) != len(names) or not set(COLUMNS) <= set(names) <= known:
-        raise ValueError(
-            f"{path}, line {number}: columns {names}: must be {list(COLUMNS)}, "
-            f"and may be {list(ERRORS)}"
-        )
-    found = {name: [] for name in names}
-    for number, row in rows[1:]:
-        if len(row) != len(names):
-            raise ValueError(f"{path}, line {number}: {len(row)} values: must be {len(names)}")
-        for name, cell in zip(names, row, strict=True):
-            found[name].append(_number(path, number, name, cell))
-    count = len(rows) - 1
-    if not FEWEST <= count <= MOST:
-        raise ValueError(f"{path}: {count} points: must be {FEWEST} to {MOST}")
-    T, phi = (np.array(found[name]) for name in COLUMNS)
-    given = all(name in found for name in ERRORS)
-    T_error = np.array(found.get(ERRORS[0], np.full(count, USUAL_ERROR[ERRORS[0]])))
-    phi_error = np.array(found.get(ERRORS[1], USUAL_ERROR[ERRORS[1]] * phi))
-    return Points(T, phi, T_error, phi_error, given)
-
-
-def _number(path, line, name, cell):
-    try:
-        value = float(cell)
-    except ValueError:
-        value = math.nan
-    allowed = {
-        "temperature": (COLDEST <= value <= HOTTEST, f"kelvin, {COLDEST:g} to {HOTTEST:g}"),
-        "polymer_fraction": (0 < value < 1, "greater than 0 and less than 1"),
-    }
-    inside, text = allowed.get(name, (0 < value < math.inf, "a number greater than 0"))
-    if not inside:
-        raise ValueError(f"{path}, line {line}: {name} = {cell[:40]!r}: must be {text}")
-    return value
-
-
-def fit(name: str, points: Points, temperature_range=None) -> Fit:
-    """The energy-based gel through the points; ValueError if they do not determine one."""
     from scipy.optimize import least_squares
 
-    middle = points.T.mean()
-    T, phi = points.T - middle, points.phi
-    free = log_tail(phi, 2) / phi**2
-    chain = (phi - np.cbrt(phi)) / phi**2
-    one = np.ones_like(phi)
-    columns = np.column_stack([-chain, one, T, 2 * phi, 2 * phi * T])  # of w, c0, c1, A1', B1
-    step = 1e-6 * phi * (1 - phi)
-
-    def of_phi(f):
-        return log_tail(f, 2) / f**2, (f - np.cbrt(f)) / f**2
-
-    (up, up_chain), (down, down_chain) = of_phi(phi + step), of_phi(phi - step)
-    free_slope, chain_slope = (up - down) / (2 * step), (up_chain - down_chain) / (2 * step)
-
-    def residual(p):
-        w, _, c1, A1, B1 = p
-        along = free_slope + w * chain_slope - 2 * (A1 + B1 * T)
-        spread = np.hypot(along * points.phi_error, (c1 + 2 * phi * B1) * points.T_error)
-        return (free - columns @ p) / spread, spread
-
     missing = missing_state(points)
-    refused = f"{name}: the points do not determine five parameters: " + (
+    count = len(FORMS[form].free) + 1
+    refused = f"{name}: the points do not determine {_counted(count)} parameters: " + (
         missing or "they must cover several temperatures and, best, both states"
     )
-    if (
-        np.linalg.matrix_rank(
-            columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-300), tol=1e-10
-        )
-        < 5
-    ):
+    inverse, free = FORMS[form].inverse, list(FORMS[form].free)
+    kappa = LOGARITHM[network[0]] * network[1] ** (-2 / 3)
+    T, phi = points.T, points.phi
+    s = 1 / T if inverse else T
+    middle = 1 / T.mean() if inverse else T.mean()
+    u, du = s - middle, -1 / T**2 if inverse else np.ones_like(T)
+    mixing = log_tail(phi, 2) / phi**2
+    mixing_slope = 1 / (1 - phi) - 2 * log_tail(phi, 3) / phi**3
+    chain = kappa / phi - phi ** (-5 / 3)
+    chain_slope = -kappa / phi**2 + 5 / 3 * phi ** (-8 / 3)
+    one = np.ones_like(phi)
+    columns = np.column_stack([-chain, *np.array([one, u, phi, phi * u, phi**2])[free]])
+    zero = 0 * one
+    by_phi = np.column_stack([chain_slope, *-np.array([zero, zero, one, u, 2 * phi])[free]])
+    by_T = np.column_stack([zero, *-np.array([zero, one, zero, phi, zero])[free]]) * du[:, None]
+
+    def residual(p):
+        along = (mixing_slope + by_phi @ p) * points.phi_error
+        spread = np.hypot(along, (by_T @ p) * points.T_error)
+        return (mixing - columns @ p) / spread, spread
+
+    norm = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+    if np.linalg.matrix_rank(columns / norm, tol=1e-10) < count:
         raise ValueError(refused)
     spread = one
     for _ in range(8):
-        p = np.linalg.lstsq(columns / spread[:, None], free / spread, rcond=None)[0]
+        p = np.linalg.lstsq(columns / spread[:, None], mixing / spread, rcond=None)[0]
         spread = residual(p)[1]
+        if not np.all(np.isfinite(spread) & (spread > 0)):
+            raise ValueError(refused)
     _, R = np.linalg.qr(columns / spread[:, None])
     if np.linalg.cond(R / np.linalg.norm(R, axis=0)) > 1e10:
         raise ValueError(refused)
@@ -173,31 +182,140 @@ def fit(name: str, points: Points, temperature_range=None) -> Fit:
         if missing:
             raise ValueError(refused)
         raise ValueError(f"{name}: the points give 1/Omega = {p[0]:.3g}: must be greater than 0")
-    inverse = np.linalg.solve(R, np.linalg.pinv(best.jac))
-    covariance = inverse @ inverse.T
-    freedom = len(phi) - 5
-    chi2 = float((best.fun**2).sum() / max(freedom, 1))
-    if not points.errors_given:
-        covariance = covariance * chi2
-    w, c0, c1, A1c, B1 = p
-    # from w, c0, c1, A1, B1 about the middle temperature to NAMES
-    values = {"A1": A1c - B1 * middle, "B1": B1, "B0": c1 + B1, "Omega": 1 / w}
-    values["A0"] = c0 - c1 * middle + values["A1"]
-    turn = np.array(
-        [
-            [0, 1, -middle, 1, -middle],
-            [0, 0, 0, 1, -middle],
-            [0, 0, 1, 0, 1],
-            [0, 0, 0, 0, 1],
-            [-(w**-2), 0, 0, 0, 0],
-        ]
+    inverse_R = np.linalg.solve(R, np.linalg.pinv(best.jac))
+    freedom, chi2 = len(phi) - count, float((best.fun**2).sum())
+    reduced = chi2 / max(freedom, 1)
+    covariance = inverse_R @ inverse_R.T * (1.0 if points.errors_given else reduced)
+    coefficients, turn = _uncentred(p, free, middle)
+    span = temperature_range or (float(T.min() - 5), float(T.max() + 5))
+    if form == "appendix-A":
+        p_1, q_1, p_2, q_2, _ = coefficients
+        half = np.array([[1, 0, 0.5, 0], [0, 0, 0.5, 0], [0, 1, 0, 0.5], [0, 0, 0, 0.5]])
+        turn[:-1] = half @ turn[:-1]
+        values = (p_1 + p_2 / 2, p_2 / 2, q_1 + q_2 / 2, q_2 / 2)
+        gel: ExplicitGel = EnergyBasedGel(name, *map(float, values), 1 / float(p[0]), span)
+    else:
+        p_1, q_1, p_2, q_2, p_3 = map(float, coefficients)
+        gel = FloryRehnerGel(name, (p_1, p_2, p_3), (q_1, q_2, 0.0), inverse, 1 / float(p[0]),
+                             kappa, temperature_range=span)  # fmt: skip
+    if checked:
+        scatter = max(1.0, 1.4826 * float(np.median(np.abs(best.fun))))
+        _require_stable(gel, points, 1.0 if points.errors_given else scatter, missing)
+        if reduced > WORST:
+            raise ValueError(
+                f"{name}: the points lie {reduced**0.5:.3g} times their errors away from the best "
+                f"fit{'' if points.errors_given else _usual()}: this form cannot represent them, "
+                "or they need larger errors" + (missing and f"; {missing}")
+            )
+    misfit = chi2 if points.errors_given else len(phi) * np.log(max(chi2, 1e-20))
+    found = Fit(gel, form, turn @ covariance @ turn.T, reduced, best.fun,
+                float(count * np.log(len(phi)) + misfit), network)  # fmt: skip
+    return replace(found, warnings=tuple(_warnings(found, points, missing)))
+
+
+def _counted(count):
+    return {4: "four", 5: "five"}[count]
+
+
+def _uncentred(p, free, middle):
+    """p_1, q_1, p_2, q_2, p_3 about s = 0; what turns w and the free ones into these and Omega."""
+    whole = np.zeros((5, len(p)))
+    whole[free, np.arange(1, len(p))] = 1.0
+    for constant, slope in ((0, 1), (2, 3)):
+        whole[constant] -= middle * whole[slope]
+    last = np.zeros(len(p))
+    last[0] = -(p[0] ** -2)
+    return whole @ p, np.vstack([whole[free], last])
+
+
+def choose(name: str, points: Points, block: Mapping[str, Any]) -> Fit:
+    """The fit of the form that ``block`` names, or the one that Bayes' criterion takes of all.
+
+    ValueError if no form goes through the points.
+    """
+    forms, network = block.get("form", "best"), block.get("network", {})
+    if forms != "best" and forms not in FORMS:
+        raise ValueError(f"{name}.form = {forms!r}: must be 'best' or one of {list(FORMS)}")
+    if not isinstance(network, Mapping) or set(network) - {
+        "elasticity",
+        "reference_polymer_fraction",
+    }:
+        raise ValueError(f"{name}.network = {network!r}: a measured gel's takes elasticity and "
+                         "reference_polymer_fraction; its chains are fitted")  # fmt: skip
+    kind, phi_ref = (
+        network.get("elasticity", "neo-Hookean"),
+        network.get("reference_polymer_fraction", 1.0),
     )
-    covariance = turn @ covariance @ turn.T
-    span = temperature_range or (float(points.T.min() - 5), float(points.T.max() + 5))
-    gel = EnergyBasedGel(name, **{key: float(values[key]) for key in NAMES}, temperature_range=span)
-    scatter = 1.0 if points.errors_given else max(1.0, 1.4826 * float(np.median(np.abs(best.fun))))
-    _require_stable(gel, points, scatter, missing)
-    return Fit(gel, covariance, chi2, tuple(_warnings(gel, covariance, chi2, points)))
+    if kind not in LOGARITHM or not isinstance(phi_ref, int | float) or not 0 < phi_ref <= 1:
+        raise ValueError(
+            f"{name}.network = {network!r}: elasticity must be one of {list(LOGARITHM)}, "
+            "reference_polymer_fraction greater than 0 and at most 1"
+        )
+    fits, refusals = [], {}
+    for form in FORMS if forms == "best" else [forms]:
+        if form == "appendix-A" and (kind, phi_ref) != ("neo-Hookean", 1.0):
+            continue
+        try:
+            fits.append(fit(name, points, block.get("temperature_range"), form, (kind, phi_ref)))
+        except ValueError as refusal:
+            refusals[form] = str(refusal).removeprefix(f"{name}: ")
+    if not fits:
+        if len(set(refusals.values())) == 1:
+            raise ValueError(f"{name}: {next(iter(refusals.values()))}")
+        each = "; ".join(f"{form}: {why}" for form, why in refusals.items())
+        raise ValueError(f"{name}: no form goes through the points: {each}")
+    best = min(fits, key=lambda each: each.criterion)
+    said = [f"form {form}: {why}" for form, why in refusals.items()]
+    said += [
+        f"form {each.form}: Bayes' criterion is larger by {each.criterion - best.criterion:.3g}"
+        for each in fits
+        if each is not best
+    ]
+    return replace(best, passed_over=tuple(said))
+
+
+def bootstrap(found: Fit, points: Points, draws: int = DRAWS) -> tuple[NDArray, list[NDArray]]:
+    """Parameters, (draws, parameters), and fold temperatures of each draw, of fits to points that
+    lie on the fitted curve but for normal errors: those of the points, or what these scatter, where
+    none are given. Every run draws the same. A draw whose fit is refused has nan and no folds.
+    """
+    random = np.random.default_rng(0)
+    scale = 1.0 if points.errors_given else found.reduced_chi2**0.5
+    parameters = np.full((draws, len(found.names)), np.nan)
+    folds: list[NDArray] = []
+    curve = _on_curve(found.gel, points)
+    for i in range(draws):
+        T, phi = (
+            value + scale * error * random.normal(size=len(value))
+            for value, error in zip(curve, (points.T_error, points.phi_error), strict=True)
+        )
+        folds.append(np.array([]))
+        if np.any((phi <= 0) | (phi >= 1)):
+            continue
+        moved = replace(points, T=T, phi=phi)
+        try:
+            span = found.gel.temperature_range
+            again = fit("draw", moved, span, found.form, found.network, checked=False)
+        except ValueError:
+            continue
+        parameters[i], folds[i] = again.parameters, np.sort(again.gel.folds().temperature)
+    return parameters, folds
+
+
+def _on_curve(gel, points):
+    """T and phi of the nearest points of the curve, in errors, by three steps to first order."""
+    T, phi = points.T, points.phi
+    for _ in range(3):
+        h = 1e-5 * phi * (1 - phi)
+        ends = gel.equilibrium_temperature(phi + h), gel.equilibrium_temperature(phi - h)
+        along = (ends[0] - ends[1]) / (2 * h)
+        # of points (T, phi) on the line T_eq(phi) + along (phi' - phi), the nearest one
+        offset = points.T - gel.equilibrium_temperature(phi) - along * (points.phi - phi)
+        size = points.T_error**2 + (along * points.phi_error) ** 2
+        T = points.T - offset * points.T_error**2 / size
+        phi = points.phi + offset * along * points.phi_error**2 / size
+        phi = np.clip(phi, 1e-6, 1 - 1e-6)
+    return T, phi
 
 
 def missing_state(points: Points) -> str:
@@ -220,10 +338,12 @@ def _require_stable(gel, points, scatter, missing):
 
     The distance is that to the drawn curve, in errors; they are multiplied by ``scatter``.
     """
-    phi = np.concatenate([np.geomspace(1e-5, 0.05, 2000), np.linspace(0.05, 0.9999, 20_000)])
+    phi = np.concatenate([np.geomspace(1e-5, 0.05, 2000), np.linspace(0.05, 0.9999, 8000)])
     phi = np.sort(np.concatenate([phi, points.phi]))
     T = gel.equilibrium_temperature(phi)
-    stable = (gel.osmotic_modulus(phi, T) > 0) & (T > 0)
+    real = np.isfinite(T) & (T > 0)
+    phi, T = phi[real], T[real]
+    stable = gel.osmotic_modulus(phi, T) > 0
     for t, f, *errors in zip(points.T, points.phi, points.T_error, points.phi_error, strict=True):
         distance = np.hypot((T - t) / errors[0], (phi - f) / errors[1]) / scatter
         nearest = distance[stable].min(initial=np.inf)
@@ -235,36 +355,51 @@ def _require_stable(gel, points, scatter, missing):
             )
 
 
-def _warnings(gel, covariance, chi2, points):
-    for name, error in zip(NAMES, np.sqrt(np.diag(covariance)), strict=True):
-        value = getattr(gel, name)
+def _warnings(found, points, missing):
+    yield from points.notes
+    for name, value, error in zip(found.names, found.parameters, found.errors, strict=True):
         if error > abs(value) / 2:
             yield f"{name} = {value:.4g} is not identified: its standard error is {error:.2g}"
-    if missing := missing_state(points):
+    if missing:
         yield f"{missing}: what the fit says of it is extrapolated"
+    chi2 = found.reduced_chi2
     if points.errors_given and not 0.3 < chi2 < 3:
         yield f"chi^2 per degree of freedom is {chi2:.2g}: the form or the errors do not fit"
     if not points.errors_given:
         yield "errors were not given for both columns: they are estimated from the scatter"
         if chi2 > 3:
-            usual = "{temperature_error:g} K and {polymer_fraction_error:.0%}".format(**USUAL_ERROR)
             yield (
-                f"the points scatter about the fit {chi2**0.5:.2g} times as far as errors of "
-                f"{usual} would: the points scatter or the form does not fit"
+                f"the points lie {chi2**0.5:.2g} times their errors away from the fit{_usual()}: "
+                "the points scatter or the form does not fit"
             )
-    T = np.sort(gel.folds().temperature)
-    if len(T) > 1 and not _both_branches(gel, points, T[0], T[-1]):
+    yield from _hysteresis(found.gel, points)
+
+
+def _usual():
+    usual = "{temperature_error:g} K and {polymer_fraction_error:.0%}".format(**USUAL_ERROR)
+    return f" (errors of {usual} are assumed, none are given)"
+
+
+def _hysteresis(gel, points):
+    """What the points say of the fit's hysteresis."""
+    T, phi = gel.folds()
+    if len(T) < 2:
+        return
+    middle, within = phi.mean(), (T.min() <= points.T) & (T.max() >= points.T)
+    if len(set(points.phi[within] > middle)) != 2:
         yield (
-            f"the fit has a hysteresis from {T[0]:.2f} to {T[-1]:.2f} K, but no temperature is "
-            "measured in both states there"
+            f"the fit has a hysteresis from {T.min():.2f} to {T.max():.2f} K, but no temperature "
+            "is measured in both states there"
         )
-
-
-def _both_branches(gel, points, low, high):
-    """Whether points of both states lie within the temperatures of the hysteresis."""
-    within = (low <= points.T) & (high >= points.T)
-    middle = gel.folds().polymer_fraction.mean()
-    return len(set(points.phi[within] > middle)) == 2
+    collapses = T[phi.argmin()] > T[phi.argmax()]  # when heated; else the gel swells
+    for branch in BRANCHES:
+        left = (points.phi > middle) == (collapses == (branch == "heating"))
+        early = points.on(branch) & left & within
+        if early.any():
+            yield (
+                f"on {branch} the gel has jumped at {points.T[early][0]:.2f} K, before the fit's "
+                "fold: folds are limits of stability, a real gel may leave a branch earlier"
+            )
 
 
 def find(points: str, folders) -> Path:
@@ -275,33 +410,37 @@ def find(points: str, folders) -> Path:
     raise ValueError(f"points = {points!r}: no such file in {[str(f) for f in folders]}")
 
 
+def measured(name: str, block: Mapping[str, Any]) -> tuple[Points, Fit]:
+    """Points and fit of the config block of a measured gel whose ``points`` is a path."""
+    points = read(block["points"], {key: block[key] for key in KEYS & set(block)})
+    return points, choose(name, points, block)
+
+
 def resolve(
     gels: dict, folders=(".",), warn: Callable[[str], None] = warnings.warn
-) -> dict[str, str]:
-    """Put the fitted energy-based block in place of each measured one; the files they came from.
+) -> dict[str, dict[str, Any]]:
+    """Put the block of the fitted gel in place of each measured one; the measured blocks by name.
 
     ``warn`` gets what there is to beware of. ValueError, with the gel, for points that are refused.
     """
-    files = {}
+    blocks = {}
     for name, block in gels.items():
         if not isinstance(block, dict) or block.get("model") != "measured":
             continue
-        extra = set(block) - {"model", "points", "temperature_range"}
+        takes = {"model", "points", "temperature_range", "form", "network", "source", *KEYS}
+        extra = set(block) - takes
         if extra or not isinstance(block.get("points"), str):
             raise ValueError(
-                f"{name}: measured takes points, the path of a CSV, and temperature_range, "
+                f"{name}: measured takes points, the path of a CSV, and {sorted(takes)}, "
                 f"not {sorted(extra)}"
             )
         try:
-            path = find(block["points"], folders)
-            found = fit(name, read(path), block.get("temperature_range"))
+            blocks[name] = block | {"points": find(block["points"], folders).as_posix()}
+            _, found = measured(name, blocks[name])
         except ValueError as refusal:
             said = str(refusal).removeprefix(f"{name}: ")
             raise ValueError(f"{name}: {said}") from refusal
         for text in found.warnings:
             warn(f"gel {name}: {text}")
-        gel = found.gel
-        files[name] = path.as_posix()
-        gels[name] = {"model": "energy-based"} | {key: getattr(gel, key) for key in NAMES}
-        gels[name]["temperature_range"] = list(gel.temperature_range)
-    return files
+        gels[name] = found.block()
+    return blocks

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gelpump.materials import measured, tables
+from gelpump.materials import from_config, measured, tables
 from gelpump.materials.jumps import jump
 
 if TYPE_CHECKING:
@@ -61,12 +61,33 @@ def assembled(gel, temperatures, count, fit=None, points=None) -> "xr.Dataset":
     )
     if fit is None:
         return data
-    for name, error in zip(measured.NAMES, fit.errors, strict=True):
-        data[f"{name}_uncertainty"] = ((), error, _attributes(f"standard error of {name}"))
-    phi = data.polymer_fraction.values
+    units = {name: unit for name, (_, unit) in gel.parameters.items()}
+    drawn, folds = measured.bootstrap(fit, points)
+    kept = np.isfinite(drawn).all(axis=1)
+    for i, (name, error) in enumerate(zip(fit.names, fit.errors, strict=True)):
+        unit = {"units": units[name]}
+        data[f"{name}_uncertainty"] = ((), error, unit | {"long_name": f"standard error of {name}"})
+        if kept.sum() > 1:
+            data[f"{name}_interval"] = (
+                "end",
+                np.percentile(drawn[kept, i], INTERVAL),
+                unit | {"long_name": f"bootstrap interval of {name}, 95 per cent"},
+            )
+    whole = [each for each in folds if len(each) == data.sizes["fold"]]
+    if data.sizes["fold"] and len(whole) > 1:
+        data["fold_temperature_interval"] = (
+            ("fold", "end"),
+            _ordered(np.percentile(whole, INTERVAL, axis=0).T, data.fold_temperature.values),
+            {"units": "K", "long_name": "bootstrap interval of the folds, 95 per cent"},
+        )
+    data["share_with_folds"] = (
+        (),
+        np.mean([len(each) > 1 for each in folds]),
+        {"units": "1", "long_name": "share of bootstrap draws with a hysteresis"},
+    )
     data["equilibrium_error"] = (
         "polymer_fraction",
-        _spread(fit, phi),
+        _spread(fit, data.polymer_fraction.values),
         {"units": "K", "long_name": "standard deviation of the fitted equilibrium temperature"},
     )
     for name, unit in (("T", "K"), ("T_error", "K"), ("phi", "1"), ("phi_error", "1")):
@@ -75,6 +96,21 @@ def assembled(gel, temperatures, count, fit=None, points=None) -> "xr.Dataset":
             getattr(points, name),
             {"units": unit, "long_name": f"measured point: {name}"},
         )
+    data["measured_branch"] = (
+        "point",
+        points.on("heating").astype("i1") + 2 * points.on("cooling").astype("i1"),
+        {
+            "units": "1",
+            "long_name": "how the point was reached",
+            "flag_values": np.arange(3, dtype="i1"),
+            "flag_meanings": "not_told heating cooling",
+        },
+    )
+    data["residual"] = (
+        "point",
+        fit.residuals,
+        {"units": "1", "long_name": "distance of the point from the fit, in errors"},
+    )
     data["reduced_chi2"] = (
         (),
         fit.reduced_chi2,
@@ -83,28 +119,34 @@ def assembled(gel, temperatures, count, fit=None, points=None) -> "xr.Dataset":
     data["covariance"] = (
         ("parameter", "parameter_2"),
         fit.covariance,
-        {"units": "1", "long_name": f"covariance of {', '.join(measured.NAMES)}, in K and 1"},
+        {"units": "1", "long_name": f"covariance of {', '.join(fit.names)}, in K and 1"},
     )
-    return data.assign_attrs({"warnings": "; ".join(fit.warnings)} if fit.warnings else {})
+    told = {"warnings": fit.warnings, "forms_passed_over": fit.passed_over}
+    return data.assign_attrs({"form": fit.form} | {k: "; ".join(v) for k, v in told.items() if v})
 
 
-def _attributes(name):
-    return {"units": "K-1" if name.split()[-1].startswith("B") else "1", "long_name": name}
+INTERVAL = (2.5, 97.5)  # per cent
+
+
+def _ordered(intervals, folds):
+    """Intervals of sorted temperatures in the order of ``folds``."""
+    return intervals[np.argsort(np.argsort(folds))]
 
 
 def _spread(fit, phi):
-    """Standard deviation of T_eq(phi); the slopes of T_eq are those of a linear equation."""
-    gel, h = fit.gel, 1e-6
-    here = gel.equilibrium_temperature(phi)
-    slopes = []
-    for name in measured.NAMES:
-        step = h * abs(getattr(gel, name))
-        moved = {key: getattr(gel, key) for key in measured.NAMES} | {
-            name: getattr(gel, name) + step
-        }
-        slopes.append((type(gel)("moved", **moved).equilibrium_temperature(phi) - here) / step)
-    slopes = np.array(slopes)
-    return np.sqrt(np.maximum(np.einsum("ip,ij,jp->p", slopes, fit.covariance, slopes), 0.0))
+    """Standard deviation of T_eq(phi), to first order, along the axes of the covariance."""
+    variances, axes = np.linalg.eigh(fit.covariance)
+    total = np.zeros_like(phi)
+    for variance, axis in zip(variances, axes.T, strict=True):
+        shift = 0.1 * np.sqrt(max(variance, 0.0)) * axis
+        up, down = (
+            from_config("moved", fit.block(fit.parameters + sign * shift)).equilibrium_temperature(
+                phi
+            )
+            for sign in (1, -1)
+        )
+        total += ((up - down) / 0.2) ** 2
+    return np.sqrt(total)
 
 
 def said(data) -> list[str]:
@@ -122,11 +164,18 @@ def rows(data, gel):
     for each in said(data):
         what, _, text = each.partition(": ")
         yield what, "", text
+    if "form" in data.attrs:
+        yield "form", data.attrs["form"], data.attrs.get("forms_passed_over", "")
     for name in gel.parameters:
         error = f"{name}_uncertainty"
-        yield name, float(data[name]), f"{float(data[error]):.3g}" if error in data else ""
+        told = f"{float(data[error]):.3g}" if error in data else ""
+        if f"{name}_interval" in data:
+            told += "; bootstrap {:.5g} to {:.5g}".format(*data[f"{name}_interval"].values)
+        yield name, float(data[name]), told
     for i, T in enumerate(data.fold_temperature.values):
-        yield f"fold {i + 1} (K)", float(T), ""
+        ends = data.get("fold_temperature_interval")
+        told = "" if ends is None else "bootstrap {:.6g} to {:.6g}".format(*ends.values[i])
+        yield f"fold {i + 1} (K)", float(T), told
     if "spinodal_tip_temperature" in data:
         yield "spinodal tip (K)", float(data.spinodal_tip_temperature), ""
     T = data.before.values

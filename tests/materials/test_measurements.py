@@ -184,6 +184,32 @@ CELLS = st.one_of(
 )
 
 
+ANY = st.recursive(
+    st.one_of(
+        st.none(), st.booleans(), st.floats(), st.sampled_from(["", "T", "nm", ";", "heating"])
+    ),
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=2),
+        st.dictionaries(
+            st.sampled_from(["temperature", "diameter", "heating", "polymer_fraction", "x"]),
+            inner,
+            max_size=2,
+        ),
+    ),
+    max_leaves=4,
+)
+
+
+@given(st.sampled_from(sorted(measurements.KEYS)), ANY)
+@settings(max_examples=300, deadline=None, derandomize=True, database=None)
+def test_any_value_of_any_key_is_taken_or_refused_in_words(tmp_path_factory, key, value):
+    path = tmp_path_factory.mktemp("any") / "points.csv"
+    path.write_text(PLAIN)
+    found = read_or_refused(path, SIZED | {key: value})
+    if not isinstance(found, str):
+        np.testing.assert_allclose(found.T, T + 273.15, rtol=1e-12)
+
+
 def read_or_refused(path, how):
     try:
         return measurements.read(path, how)

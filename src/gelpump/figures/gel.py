@@ -92,5 +92,5 @@ def _residuals(ax, above, low, high, data):
     ax.axhline(0, color=style.GREY, linewidth=0.6)
     largest = max(1.5, 1.15 * float(np.abs(data.residual).max()))
     ax.set(xlim=(low - 0.5, high + 0.5), ylim=(-largest, largest),
-           xlabel="temperature $T$ (K)", ylabel="residual\n(errors)")  # fmt: skip
+           xlabel="temperature $T$ (K)", ylabel="residual/error")  # fmt: skip
     style.panel_label(ax, "c")

@@ -234,7 +234,7 @@ def choose(name: str, points: Points, block: Mapping[str, Any]) -> Fit:
     ValueError if no form goes through the points.
     """
     forms, network = block.get("form", "best"), block.get("network", {})
-    if forms != "best" and forms not in FORMS:
+    if forms not in ("best", *FORMS):
         raise ValueError(f"{name}.form = {forms!r}: must be 'best' or one of {list(FORMS)}")
     if not isinstance(network, Mapping) or set(network) - {
         "elasticity",
@@ -246,7 +246,7 @@ def choose(name: str, points: Points, block: Mapping[str, Any]) -> Fit:
         network.get("elasticity", "neo-Hookean"),
         network.get("reference_polymer_fraction", 1.0),
     )
-    if kind not in LOGARITHM or not isinstance(phi_ref, int | float) or not 0 < phi_ref <= 1:
+    if kind not in list(LOGARITHM) or not isinstance(phi_ref, int | float) or not 0 < phi_ref <= 1:
         raise ValueError(
             f"{name}.network = {network!r}: elasticity must be one of {list(LOGARITHM)}, "
             "reference_polymer_fraction greater than 0 and at most 1"

@@ -321,7 +321,7 @@ class _Table:
             self.refuse(f"{len(rows)} points: must be {FEWEST} to {MOST}")
         *numbers, side = zip(*rows, strict=True)
         lines = ", ".join(map(str, blank[:9])) + (" ..." if len(blank) > 9 else "")
-        notes = (f"lines {lines} have no {quantity} and are left out",) if blank else ()
+        notes = (f"{quantity} is blank and left out in line {lines}",) if blank else ()
         branch = np.array(side) if any(side) else None
         return Points(*(np.array(each, float) for each in numbers), given, branch, notes)
 

@@ -1,6 +1,8 @@
 """Tables as CSV, Markdown and LaTeX, from the same columns and rows."""
 
+import csv as csv_format
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -23,13 +25,10 @@ def printed(cell: Cell) -> str:
 
 def csv(columns: Sequence[Column], rows: Iterable[Sequence[Cell]]) -> str:
     """Comma-separated values after RFC 4180, with line feeds."""
-
-    def quoted(cell):
-        cell = printed(cell)
-        return '"' + cell.replace('"', '""') + '"' if set(cell) & set(',"\n') else cell
-
+    text = StringIO()
     lines = [[column.heading for column in columns], *rows]
-    return "".join(",".join(map(quoted, line)) + "\n" for line in lines)
+    csv_format.writer(text, lineterminator="\n").writerows(map(printed, line) for line in lines)
+    return text.getvalue()
 
 
 def markdown(columns: Sequence[Column], rows: Iterable[Sequence[Cell]]) -> str:
@@ -49,10 +48,15 @@ def _lines(rows: Iterable[Sequence[Cell]]) -> str:
     )
 
 
-def page(title: str, intro: str, columns: Mapping[str, Callable[[Any], Cell]], of: Iterable) -> str:
-    """A Markdown page with one table: of each thing, what every column makes of it."""
+def table(columns: Mapping[str, Callable[[Any], Cell]], of: Iterable) -> str:
+    """A Markdown table of text: of each thing, what every column makes of it."""
     rows = [[column(each) for column in columns.values()] for each in of]
-    return f"# {title}\n\n{intro}\n\n{_lines([columns, ['---'] * len(columns), *rows])}"
+    return _lines([columns, ["---"] * len(columns), *rows])
+
+
+def page(title: str, intro: str, columns: Mapping[str, Callable[[Any], Cell]], of: Iterable) -> str:
+    """A Markdown page with one such table."""
+    return f"# {title}\n\n{intro}\n\n{table(columns, of)}"
 
 
 def latex(columns: Sequence[Column], rows: Iterable[Sequence[Cell]]) -> str:

@@ -12,6 +12,7 @@ from gelpump.statements.statement import (
     Evidence,
     holds,
     record,
+    said,
     status,
 )
 
@@ -69,7 +70,7 @@ def test_what_is_counted_apart_can_come_out_otherwise(kind, computed, expected):
 def test_a_record_says_who_computed_it():
     entry = judged(Computed([1.0, 2.2], [0.0, 0.0]), {"value": [1.0, 2.0], "resolution": 0.1})
     assert entry["relative_difference"] == pytest.approx(0.1)
-    assert entry["statement"] == "Says so"
+    assert entry["statement"] == "says so"
     assert entry["code"] == f"{__name__}.judged.<locals>.statement"
 
 
@@ -134,6 +135,33 @@ def test_numbers_keep_the_digits_that_mean_something(value, uncertainty, text):
 )
 def test_an_uncertainty_is_shown_where_it_touches_a_digit(value, uncertainty, text):
     assert views.number(value, uncertainty) == text
+
+
+@pytest.mark.parametrize(
+    ("computed", "size", "measured"),
+    [(304.74, 0.24, "computed minus published"), (304.51, -0.19, "computed minus drawn")],
+)
+def test_the_ledger_tells_the_value_that_disagrees(computed, size, measured):
+    (entry,) = views.ledger([judged(Computed(computed, 0.0), TWICE)])
+    assert entry["size"] == pytest.approx(size)
+    assert (entry["measured"], entry["allowed"]) == (measured, 0.05)
+
+
+@pytest.mark.parametrize(
+    ("docstring", "text"),
+    [
+        ("Temperature at which.", "temperature at which"),
+        ("Phi_1 is\n    here.", "Phi_1 is here"),
+        ("A V_max is.", "A V_max is"),
+        ("LENS is.", "LENS is"),
+    ],
+)
+def test_a_statement_is_part_of_a_sentence(docstring, text):
+    def statement(e):
+        pass
+
+    statement.__doc__ = docstring
+    assert said(statement) == text
 
 
 def test_tables_count_and_list():

@@ -80,8 +80,8 @@ def _abstract(content):
     for figure in content.figures:
         by_extent.setdefault(extent(figure), []).append(figure.number)
     yield (
-        f"All {len(content.figures)} figures and {len(content.tables)} tables were computed anew "
-        "from the equations that the paper states, its printed parameters and nothing else."
+        f"All {len(content.figures)} figures were computed anew from the equations that the paper "
+        f"states and its printed parameters, which the {len(content.tables)} tables repeat."
     )
     yield (
         f"Of {content.tested} statements that a computation could contradict, "

@@ -240,7 +240,7 @@ def solve(
 
     ``times`` (increasing, from 0) are in t_BMJ; ``tolerance`` bounds the local error of a step in
     the radius of any shell relative to a; ``order`` is that of the backward differences.  The
-    dataset is described in ``gelpump.bead.observe``; if phases separate it ends there, and its
+    dataset is described in ``gelpump.bead.dataset``; if phases separate it ends there, and its
     attribute ``stopped`` says at which t, r and phi.
     """
     return solve_meshes(

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from gelpump.known_solutions.study import Study
+from gelpump.tables import page
 
 
 class NotVerified(ArithmeticError):
@@ -24,25 +25,20 @@ def require_all(studies: Sequence[Study]) -> None:
 def markdown(studies: Sequence[Study]) -> str:
     """The table as a page."""
     passed = sum(each.passes for each in studies)
-    lines = [
-        "# The FiPy solvers on known solutions",
-        "",
-        f"{passed} of {len(studies)} studies pass.",
-        "",
-        "| problem | quantity | resolution | error | order | least order | bound | verdict |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- |",
-    ]
-    for each in studies:
-        counts = ", ".join(map(str, each.resolutions))
-        cells = [
-            each.problem,
-            each.quantity,
-            f"{counts} {each.against}" if each.against else "–",
-            ", ".join(f"{error:.1e}" for error in each.errors),
-            ", ".join(f"{order:.2f}" for order in each.orders) or "–",
-            "–" if each.least_order is None else f"{each.least_order:g}",
-            f"{each.bound:.0e}",
-            "passes" if each.passes else "fails",
-        ]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+    columns = {
+        "problem": lambda each: each.problem,
+        "quantity": lambda each: each.quantity,
+        "resolution": _counts,
+        "error": lambda each: ", ".join(f"{error:.1e}" for error in each.errors),
+        "order": lambda each: ", ".join(f"{order:.2f}" for order in each.orders) or "–",
+        "least order": lambda each: "–" if each.least_order is None else f"{each.least_order:g}",
+        "bound": lambda each: f"{each.bound:.0e}",
+        "verdict": lambda each: "passes" if each.passes else "fails",
+    }
+    intro = f"{passed} of {len(studies)} studies pass."
+    return page("The FiPy solvers on known solutions", intro, columns, studies)
+
+
+def _counts(study: Study) -> str:
+    counts = ", ".join(map(str, study.resolutions))
+    return f"{counts} {study.against}" if study.against else "–"

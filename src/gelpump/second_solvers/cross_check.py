@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from gelpump.tables import page
 from gelpump.uncertainty import convergence_index
 
 if TYPE_CHECKING:
@@ -156,25 +157,15 @@ def require_agreement(rows: Sequence[Row]) -> None:
 def markdown(rows: Sequence[Row]) -> str:
     """The table as a page."""
     agree = sum(each["agrees"] for each in rows)
-    lines = [
-        "# FiPy against a second solver",
-        "",
-        f"{agree} of {len(rows)} quantities agree.",
-        "",
-        "| quantity | largest difference | at | uncertainty, FiPy | uncertainty, second "
-        "| bound | allowed | verdict |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- |",
-    ]
-    for each in rows:
-        cells = [
-            each["quantity"],
-            f"{each['difference']:.1e}",
-            each["at"],
-            f"{each['uncertainty_fipy']:.1e}",
-            f"{each['uncertainty_second']:.1e}",
-            f"{each['bound']:.0e}",
-            f"{each['limit']:.1e}",
-            "agrees" if each["agrees"] else "differs",
-        ]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+    columns = {
+        "quantity": lambda each: each["quantity"],
+        "largest difference": lambda each: f"{each['difference']:.1e}",
+        "at": lambda each: each["at"],
+        "uncertainty, FiPy": lambda each: f"{each['uncertainty_fipy']:.1e}",
+        "uncertainty, second": lambda each: f"{each['uncertainty_second']:.1e}",
+        "bound": lambda each: f"{each['bound']:.0e}",
+        "allowed": lambda each: f"{each['limit']:.1e}",
+        "verdict": lambda each: "agrees" if each["agrees"] else "differs",
+    }
+    intro = f"{agree} of {len(rows)} quantities agree."
+    return page("FiPy against a second solver", intro, columns, rows)

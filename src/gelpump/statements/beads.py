@@ -13,10 +13,10 @@ MODELS = {"nonlinear": "fully nonlinear", "lens": "LENS"}
 VERBS = {"swelling": ("swell", "figure 3"), "drying": ("dry", "figure 4")}
 
 
-def bead(e_data, case: str, model: str):
+def bead(data, case: str, model: str):
     """Production run and refinement of a bead, on their common times."""
-    refined = e_data[f"refinement/bead_{case}_{model}"]
-    return e_data[f"bead_{case}_{model}"].sel(t=refined.t), refined
+    refined = data[f"refinement/bead_{case}_{model}"]
+    return data[f"bead_{case}_{model}"].sel(t=refined.t), refined
 
 
 def spread(levels: np.ndarray) -> np.ndarray:
@@ -120,7 +120,8 @@ def steepest_drying(e):
     return Computed(peaks[0], spread(np.array(peaks)))
 
 
-def _never_negative(e, case: str) -> Computed:
+def never_negative(e, case: str) -> Computed:
+    """Whether D stays positive in all of a bead."""
     run, refined = bead(e.data, case, "lens")
     worst = int(np.argmin(run.smallest_diffusivity.values))
     margin = float(run.smallest_diffusivity[worst])
@@ -129,18 +130,13 @@ def _never_negative(e, case: str) -> Computed:
 
 
 SPINODAL = "section 2.1.1, figure 5"
-
-
-@states("swelling-avoids-spinodal", SPINODAL, "bead_swelling_lens: smallest_diffusivity")
-def swelling_avoids_the_spinodal(e):
-    """On the path 308 to 304 K the diffusivity is never negative."""
-    return _never_negative(e, "swelling")
-
-
-@states("drying-3076-avoids-spinodal", SPINODAL, "bead_drying_lens: smallest_diffusivity")
-def drying_avoids_the_spinodal(e):
-    """On the path 304 to 307.6 K the diffusivity is never negative."""
-    return _never_negative(e, "drying")
+for _id, _case, _path in (
+    ("swelling-avoids-spinodal", "swelling", "308 to 304 K"),
+    ("drying-3076-avoids-spinodal", "drying", "304 to 307.6 K"),
+):
+    _text = f"on the path {_path} the diffusivity is never negative"
+    _evidence = f"bead_{_case}_lens: smallest_diffusivity"
+    states(_id, SPINODAL, _evidence, text=_text)(partial(never_negative, case=_case))
 
 
 @states("drying-308-enters-spinodal", SPINODAL, "bead_separating_lens: stopped_t")

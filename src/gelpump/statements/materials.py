@@ -29,22 +29,19 @@ def fold_uncertainty(gel, phi: float) -> float:
     return float(np.ptp(T)) + ROUNDING * float(T[1])
 
 
-def _initial(e, case: str) -> Computed:
+def initial_state(e, case: str) -> Computed:
+    """Polymer fraction of a bead before the jump."""
     phi = float(e.data[f"bead_{case}_lens"].polymer_fraction[0, 0])
     gel, T = e.gels[e.cases[case]["gel"]], e.cases[case]["temperature_initial"]
     return Computed(phi, root_uncertainty(gel, phi, T))
 
 
-@states("phi0-308-hht", "section 2.1", "bead_swelling_lens: polymer_fraction")
-def equilibrium_before_swelling(e):
-    """The HHT gel in equilibrium at 308 K has this polymer fraction."""
-    return _initial(e, "swelling")
-
-
-@states("phi0-304-hht", "section 2.1", "bead_drying_lens: polymer_fraction")
-def equilibrium_before_drying(e):
-    """The HHT gel in equilibrium at 304 K has this polymer fraction."""
-    return _initial(e, "drying")
+for _T, _case in ((308, "swelling"), (304, "drying")):
+    _text = f"the HHT gel in equilibrium at {_T} K has this polymer fraction"
+    _evidence = f"bead_{_case}_lens: polymer_fraction"
+    states(f"phi0-{_T}-hht", "section 2.1", _evidence, text=_text)(
+        partial(initial_state, case=_case)
+    )
 
 
 def _folds(e, name: str) -> tuple[np.ndarray, list[float]]:
@@ -53,25 +50,17 @@ def _folds(e, name: str) -> tuple[np.ndarray, list[float]]:
     return np.sort(table.fold_temperature.values), doubts
 
 
-def _jump(e, which: int) -> Computed:
+def jump_of_anb(e, fold: int) -> Computed:
+    """Temperature of a fold of ANB, by rank."""
     folds, doubts = _folds(e, "ANB")
     drawn = f"the folds lie at {folds[0]:.3f} and {folds[-1]:.3f} K, where figure 14 draws them"
-    return Computed(float(folds[which]), max(doubts), follows=drawn)
+    return Computed(float(folds[fold]), max(doubts), follows=drawn)
 
 
-ANB_FOLDS = "materials_ANB: fold_temperature"
-
-
-@states("tc-up-anb", "appendix A, figure 14", ANB_FOLDS)
-def swelling_transition_of_anb(e):
-    """Temperature at which the ANB gel jumps on swelling."""
-    return _jump(e, 0)
-
-
-@states("tc-down-anb", "appendix A, figure 14", ANB_FOLDS)
-def drying_transition_of_anb(e):
-    """Temperature at which the ANB gel jumps on drying."""
-    return _jump(e, -1)
+for _way, _fold, _what in (("up", 0, "swelling"), ("down", -1, "drying")):
+    _text = f"temperature at which the ANB gel jumps on {_what}"
+    _at = "appendix A, figure 14", "materials_ANB: fold_temperature"
+    states(f"tc-{_way}-anb", *_at, text=_text)(partial(jump_of_anb, fold=_fold))
 
 
 @states("tc-hht", "appendix A, figure 14", "materials_HHT: fold_temperature")
@@ -128,21 +117,16 @@ def low_temperature_fraction(e):
     return Computed(at_300, doubts, follows="at 300 K it is {:.3f} and {:.3f}".format(*at_300))
 
 
-def _singular(e, name: str) -> Computed:
-    T = float(e.data[f"materials_{name}"].singular_temperature)
+def end_of_the_asymptote(e, gel: str) -> Computed:
+    """Temperature at which the low-temperature asymptote diverges."""
+    T = float(e.data[f"materials_{gel}"].singular_temperature)
     return Computed(T, ROUNDING * T)
 
 
-@states("singular-t-anb", "appendix A", "materials_ANB: singular_temperature")
-def end_of_the_asymptote_anb(e):
-    """Temperature at which the low-temperature asymptote of ANB breaks down."""
-    return _singular(e, "ANB")
-
-
-@states("singular-t-hht", "appendix A", "materials_HHT: singular_temperature")
-def end_of_the_asymptote_hht(e):
-    """Temperature at which the low-temperature asymptote of HHT breaks down."""
-    return _singular(e, "HHT")
+for _gel in GELS:
+    _text = f"temperature at which the low-temperature asymptote of {_gel} breaks down"
+    _at = "appendix A", f"materials_{_gel}: singular_temperature"
+    states(f"singular-t-{_gel.lower()}", *_at, text=_text)(partial(end_of_the_asymptote, gel=_gel))
 
 
 def _moduli(gel, phi, phi_00: float, steps: int) -> np.ndarray:

@@ -102,8 +102,10 @@ def where_from(evidence: str) -> str:
 
 
 def said(function: Callable) -> str:
-    """The docstring as one sentence without its full stop."""
-    return " ".join(function.__doc__.split()).removesuffix(".")
+    """The docstring as part of a sentence: a first word that is no symbol is not capital."""
+    first, *rest = function.__doc__.removesuffix(".").split()
+    word = len(first) > 1 and first.isalpha() and first.istitle()
+    return " ".join([first.lower() if word else first, *rest])
 
 
 def holds(margin: float, uncertainty: float) -> bool:

@@ -1,5 +1,7 @@
 """Deswelling, heat and the drying front of tubes (sections 3.3 to 3.6)."""
 
+from functools import partial
+
 import numpy as np
 
 from gelpump.statements.derivations import (
@@ -71,31 +73,21 @@ def thin_walls(e):
     )
 
 
-def _falls(e, name: str, axis: int) -> Computed:
-    table = e.data["deswelling_map"]
+def falls(e, name: str, axis: int) -> Computed:
+    """Whether a time of the map falls from each parameter to the next."""
+    table, measured = e.data["deswelling_map"], "smallest relative fall of tau_99 of neighbours:"
     values = np.log(table[name].transpose("M", ...).values)
     margin, doubt = float(np.min(-np.diff(values, axis=axis))), 2.0 * relative(table, name)
-    return Computed(
-        holds(margin, doubt), doubt, margin, "smallest relative fall of tau_99 between neighbours:"
-    )
+    return Computed(holds(margin, doubt), doubt, margin, measured)
 
 
-@states("faster-with-contrast", "section 3.4", f"{MAP}_contrast")
-def faster_with_contrast(e):
-    """A gel with a larger Phi_inf deswells faster, for every M of the map."""
-    return _falls(e, "tau99_contrast", 1)
-
-
-@states("faster-with-M", "section 3.4, figure 7a", MAP)
-def faster_with_stiffness(e):
-    """A stiffer gel (larger M) deswells faster, for every Pi~ of the map."""
-    return _falls(e, "tau99", 0)
-
-
-@states("faster-with-Pi", "section 3.4, figure 7a", MAP)
-def faster_with_pressure(e):
-    """A gel with a larger Pi~ deswells faster, for every M of the map."""
-    return _falls(e, "tau99", 1)
+for _id, _where, _what, _name, _axis in (
+    ("contrast", "", "gel with a larger Phi_inf deswells faster, for every M", "tau99_contrast", 1),
+    ("M", ", figure 7a", "stiffer gel (larger M) deswells faster, for every Pi~", "tau99", 0),
+    ("Pi", ", figure 7a", "gel with a larger Pi~ deswells faster, for every M", "tau99", 1),
+):
+    _at, _text = (f"section 3.4{_where}", f"deswelling_map: {_name}"), f"a {_what} of the map"
+    states(f"faster-with-{_id}", *_at, text=_text)(partial(falls, name=_name, axis=_axis))
 
 
 @states("deswelling-curves", "figure 7b", "deswelling_curves: Phi1")

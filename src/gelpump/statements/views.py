@@ -131,22 +131,13 @@ def _table(title: str, intro: str, records: Sequence[Record]) -> str:
 
 def ledger(records: Sequence[Record]) -> list[dict[str, Any]]:
     """The statements with which something disagrees, as entries of ``ledger.json``."""
+    kept = "id", "where", "follows", "code", "evidence"
     return [
-        {
-            "id": each["id"],
-            "where": each["where"],
-            "printed": each["statement"],
-            "follows": each["follows"],
-            "size": size,
-            "measured": measured,
-            "allowed": allowed,
-            "verdict": each["status"],
-            "code": each["code"],
-            "evidence": each["evidence"],
-        }
+        {name: each[name] for name in kept}
+        | {"printed": each["statement"], "verdict": each["status"]}
+        | dict(zip(("size", "measured", "allowed"), _difference(each), strict=True))
         for each in records
         if each["status"] in DISAGREE
-        for size, measured, allowed in [_difference(each)]
     ]
 
 
@@ -155,18 +146,19 @@ def _difference(each):
     reading and numerics allow."""
     if isinstance(each["computed"], bool):
         return each["measure"], each["measured"].rstrip(": "), each["uncertainty"]
-    pairs = [("published", "resolution")]
-    if each["published_in_figure"] is not None:
-        pairs.append(("published_in_figure", "resolution_in_figure"))
-    differences = [
-        (np.subtract(each["computed"], each[value]), each[resolution] or 0.0)
-        for value, resolution in pairs
+    found = [
+        (np.subtract(each["computed"], each[value]), f"computed minus {name}", (each[doubt] or 0.0))
+        for value, name, doubt in (
+            ("published", "published", "resolution"),
+            ("published_in_figure", "drawn", "resolution_in_figure"),
+        )
+        if each[value] is not None
     ]
-    allowed = [np.add(doubt, np.abs(each["uncertainty"])) for _, doubt in differences]
-    excess = [float(np.max(np.abs(d) - a)) for (d, _), a in zip(differences, allowed, strict=True)]
-    worst = int(np.argmax(excess))
-    name = ("published", "drawn")[worst]
-    return differences[worst][0].tolist(), f"computed minus {name}", allowed[worst].tolist()
+    beyond = [
+        (size.tolist(), name, np.add(doubt, np.abs(each["uncertainty"])).tolist())
+        for size, name, doubt in found
+    ]
+    return max(beyond, key=lambda pair: np.max(np.abs(pair[0]) - pair[2]))
 
 
 def ledger_table(entries: Sequence[Record]) -> str:

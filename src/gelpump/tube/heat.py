@@ -10,7 +10,7 @@ front behind which T > T_C. In the limit of a large Lewis number heat spreads by
     Z_C   = 2 erfcinv(1/2) sqrt(Le tau)                              (section 3.5)
 
 Another boundary history is another object with `front`, `front_speed` and `theta`; the tube solver
-asks for nothing else.
+asks for `front` alone, the others are for tests and for who wants to know the temperature.
 """
 
 from dataclasses import dataclass

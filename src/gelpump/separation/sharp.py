@@ -31,7 +31,13 @@ from gelpump.separation.coexistence import (
     surface_excess,
     surface_margin,
 )
-from gelpump.separation.shells import clustered_outside, graded, motion, polymer_fraction
+from gelpump.separation.shells import (
+    clustered_outside,
+    graded,
+    interpolated,
+    motion,
+    polymer_fraction,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -75,7 +81,7 @@ class Whole:
 
     def between(self, R: NDArray, r: NDArray) -> NDArray:
         """The state y with the course r(R) of other faces."""
-        return _interpolated(R, r, self.R)[1:]
+        return interpolated(R, r, self.R)[1:]
 
 
 class Divided:
@@ -174,7 +180,7 @@ class Divided:
         ``layer``, exponentially, as it would ahead of a front that moves steadily.
         """
         front = 1.0 - skin
-        cube = _interpolated(R, r, front * self.X) ** 3
+        cube = interpolated(R, r, front * self.X) ** 3
         l_t = np.cbrt(cube[-1]) / front
         inside, outside = (1 / phi for phi in self.at_hoop_stretch(l_t))
         drawn = inside - np.diff(cube)[-1] / np.diff((front * self.X) ** 3)[-1]
@@ -197,11 +203,9 @@ class Divided:
         return t - 0.5 * y[-1] / self.parts(y)[2]
 
 
-def _interpolated(R, r, faces):
-    """r at ``faces``, from r^3 as a monotone function of R^3."""
-    from scipy.interpolate import PchipInterpolator
-
-    return np.cbrt(PchipInterpolator(R**3, r**3)(np.minimum(faces, 1.0) ** 3))
+def graded_core(cells: int, layer: float) -> NDArray:
+    """Faces X of a core that resolves the ``layer`` ahead of its first front."""
+    return graded(cells, AHEAD * layer)
 
 
 def _banded(rate, y: NDArray, thickness: NDArray) -> NDArray:
@@ -369,7 +373,7 @@ def solve(
         sides = Coexistence.between(energy, 1.0, high)
         divided = Divided(energy, sides, surface, other == "dry", *cells)
         layer = divided.layer(float(r[-1]), float(polymer_fraction(R, r)[-1]), skin)
-        divided.X = graded(cells[0], AHEAD * layer)
+        divided.X = graded_core(cells[0], layer)
         R, r = course.follow(divided, divided.born(R, r, skin, layer), tolerance)
     if course.unfinished:
         whole = Whole(energy, surface, bare)

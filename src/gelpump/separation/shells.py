@@ -102,3 +102,10 @@ def _slope_at_end(s, x):
     """ds/dx at x[0] of the parabola through three points."""
     near, far = (s[1] - s[0]) / (x[1] - x[0]), (s[2] - s[0]) / (x[2] - x[0])
     return near + (near - far) * (x[1] - x[0]) / (x[2] - x[1])
+
+
+def interpolated(R, r, faces):
+    """r at the dry radii ``faces``, from r^3 as a monotone function of R^3."""
+    from scipy.interpolate import PchipInterpolator
+
+    return np.cbrt(PchipInterpolator(R**3, r**3)(np.minimum(faces, 1.0) ** 3))

@@ -23,8 +23,9 @@ def test_two_solvers_agree():
     run = on_fipy()
     late = TIMES[run.attrs["birth_t"] + 0.005 < TIMES]
     np.testing.assert_allclose(run.radius.sel(t=late), other.radius.sel(t=late), rtol=1e-3)
-    front = [each.front_dry_radius.sel(t=late).dropna("t") for each in (run, other)]
-    np.testing.assert_allclose(front[0], front[1], atol=1e-3)
+    front = [each.front_dry_radius.sel(t=late).fillna(0.0) for each in (run, other)]
+    within = front[1] > 0.1  # then it runs into the centre
+    np.testing.assert_allclose(front[0][within], front[1][within], atol=1e-3)
     np.testing.assert_allclose(run.attrs["completion_t"], other.attrs["completion_t"], rtol=1e-3)
 
 

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 NEWTON_LIMIT = 30
 POINTS = 129  # of the table
+MERGING = 6  # of them, next to the critical point, whose two sides are too near to be told apart
 ROUNDED = 1e-13  # change of a polymer fraction, relative, that is rounding
 LEAST, MOST = 1e-9, 1 - 1e-12  # polymer fractions that are sought
 _SCAN = np.concatenate([np.geomspace(1e-4, 0.1, 400)[:-1], np.linspace(0.1, 0.999, 1200)])
@@ -122,12 +123,27 @@ class Coexistence:
         has one phase only."""
         first = critical_hoop_stretch(energy, low, high)
         # the sides part like the root of the distance from the critical point
-        l_t = _graded(first, high, np.linspace(0.0, 1.0, points))
+        share = np.linspace(0.0, 1.0, points)
+        l_t = first + (high - first) * share**2
         pairs = [equal_area(energy, high)]
-        for each in l_t[-2:0:-1]:
-            pairs.append(equal_area(energy, float(each), tuple(pairs[-1])))
-        last = equal_area(energy, low, tuple(pairs[-1])) if first == low else _merged(pairs, l_t)
-        swollen, dry = np.array([*pairs, last])[::-1].T
+        for each in l_t[-2::-1]:
+            try:
+                pairs.append(equal_area(energy, float(each), tuple(pairs[-1])))
+            except OnePhase:
+                break
+        missing = points - len(pairs)
+        if missing > (MERGING if first > low else 0):
+            raise OnePhase(f"the two phases at hoop stretch {l_t[missing - 1]:.6g} are not found")
+        swollen, dry = np.array(pairs)[::-1].T
+        if missing:
+            # the sides are too near each other: their mean is linear in l_t, their distance in
+            # its root
+            known, near = share[missing : missing + 2] ** 2, share[:missing]
+            mean = 0.5 * (swollen + dry)[:2]
+            slope = np.diff(mean) / np.diff(known)
+            middle = mean[0] + slope * (near**2 - known[0])
+            half = 0.5 * (dry - swollen)[0] * near / share[missing]
+            swollen, dry = np.append(middle - half, swollen), np.append(middle + half, dry)
         return cls(l_t, swollen, dry, first > low)
 
     @cached_property
@@ -162,18 +178,6 @@ def critical_hoop_stretch(energy, low: float, high: float) -> float:
                 within = middle
         return within
     return low
-
-
-def _graded(first, last, share):
-    return first + (last - first) * share**2
-
-
-def _merged(pairs, l_t):
-    """The one polymer fraction at the critical point, l_t[0], from the pairs beyond it."""
-    (nearest, next_one), distance = pairs[-1:-3:-1], l_t[1:3] - l_t[0]
-    mean = np.interp(0.0, distance, [nearest.mean(), next_one.mean()])
-    slope = (next_one.mean() - nearest.mean()) / (distance[1] - distance[0])
-    return np.full(2, mean - slope * distance[0])
 
 
 def surface_excess(energy, phi, a):

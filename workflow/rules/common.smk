@@ -17,7 +17,7 @@ if Path(gelpump.__file__).resolve().parent != PACKAGE:
     )
 
 from gelpump import config as checked
-from gelpump import imports, launch, provenance
+from gelpump import config_physics, imports, launch, provenance
 
 launch.settle()
 
@@ -65,7 +65,7 @@ else:  # a job of a workflow that was checked when it started
 # figures and other short ones fill the gaps.
 DATA = "results/data"
 SCRIPTS = "workflow/scripts"
-ENERGY_GELS = checked.explicit_gels(config["gels"])
+ENERGY_GELS = config_physics.explicit_gels(config["gels"])
 
 
 def modules(rule):

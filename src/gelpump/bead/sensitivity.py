@@ -11,19 +11,46 @@ Near a spinodal the course is far more sensitive than its printed digits can fix
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from gelpump.bead import nonlinear, production
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from gelpump.materials import EnergyBasedGel
+
 SHARE = 2e-3  # of half a unit: small enough for the course to change in proportion
+
+
+def of_case(
+    gel: "EnergyBasedGel",
+    case: Mapping[str, Any],
+    numerics: Mapping[str, Any],
+    half_units: Mapping[str, float],
+) -> "xr.Dataset":
+    """`sensitivity` of a bead of the configuration, in the fully nonlinear model.
+
+    case, numerics: as `gelpump.bead.run` takes them.
+    """
+    temperature, _, times = production.start(gel, case, numerics)
+    # differences of one mesh: a quarter of the cells is enough
+    cells = max(numerics["cells"] // 4, 24)
+
+    def radius(gel: "EnergyBasedGel", temperature: float) -> "xr.DataArray":
+        start = production.initial_polymer_fraction(gel, case)
+        return nonlinear.solve(
+            gel, temperature, start, times, cells, tolerance=numerics["tolerance"]
+        ).radius
+
+    return sensitivity(radius, gel, temperature, half_units)
 
 
 def sensitivity(
     radius: Callable[[object, float], "xr.DataArray"],
-    gel,
+    gel: "EnergyBasedGel",
     temperature: float,
     half_units: Mapping[str, float],
 ) -> "xr.Dataset":

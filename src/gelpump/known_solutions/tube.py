@@ -44,8 +44,8 @@ from gelpump.bdf import integrate
 from gelpump.known_solutions.study import Study, one_run, space, time
 from gelpump.tube import slender
 from gelpump.tube.closure import Printed, named
-from gelpump.tube.family import PRINTED
 from gelpump.tube.heat import StepHeating
+from gelpump.tube.moving_mesh import PRINTED
 from gelpump.tube.tubes import Tubes
 
 TUBE = Tubes(0.5, 0.1, M=0.3, Pi_ratio=0.5, Phi_inf=4.0)  # q = 2.5: the slope jumps strongly

@@ -67,7 +67,7 @@ class Length:
 
 
 class Ledger:
-    """The books of a `gelpump.tube.family.Family`, step by step."""
+    """The books of a `gelpump.tube.moving_mesh.Family`, step by step."""
 
     def __init__(self, family, order: int):
         self.family = family

@@ -42,7 +42,7 @@ length lambda dX. The others conserve the water of the wall, whose volume is lam
 
     (lambda^3)_tau = 3 (lambda^2 K lambda_X)_X - 3 lambda^2 S .
 
-How it is solved is told in `gelpump.tube.family`.
+How it is solved is told in `gelpump.tube.moving_mesh`.
 """
 
 import warnings
@@ -55,9 +55,9 @@ from gelpump.bdf import MAX_TRIALS, integrate
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
 from gelpump.tube.closure import named
-from gelpump.tube.family import Family
 from gelpump.tube.heat import Heat
 from gelpump.tube.ledger import AMOUNT, AMOUNT_RATE, ENTRIES, Ledger, Length
+from gelpump.tube.moving_mesh import Family
 from gelpump.tube.tubes import Tubes
 
 NEWTON_SHARE = 0.1  # of the tolerance that the Newton iteration may leave

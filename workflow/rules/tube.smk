@@ -10,6 +10,10 @@ TUBES = expand(
         "front_fit",
         "water_budget",
         "lumen_pulse",
+        "pump_balance",
+        "pump_pulse",
+        "pump_response",
+        "wall_times",
         *(f"tube_flow_{view}" for view in config["tube_flow"]),
     ],
 )
@@ -154,3 +158,44 @@ rule lumen_pulse:
         settings=config["lumen_pulse"],
     script:
         "../scripts/lumen_pulse.py"
+
+
+# Beyond the paper: tubes that conserve water, and walls resolved in r.
+rule pump_balance:
+    input:
+        src=modules("pump_balance"),
+    output:
+        balance=f"{DATA}/pump_balance.nc",
+        pulse=f"{DATA}/pump_pulse.nc",
+        response=f"{DATA}/pump_response.nc",
+    log:
+        "results/logs/pump_balance.log",
+    benchmark:
+        "results/benchmarks/pump_balance.tsv"
+    priority: 2
+    params:
+        gel=tube_gel,
+        tube=config["tube"],
+        pulse=config["tube_pulse"],
+        response=config["pump_response"],
+        numerics=config["numerics"]["pump_balance"],
+    script:
+        "../scripts/pump_balance.py"
+
+
+rule wall_times:
+    input:
+        src=modules("wall_times"),
+    output:
+        f"{DATA}/wall_times.nc",
+    log:
+        "results/logs/wall_times.log",
+    benchmark:
+        "results/benchmarks/wall_times.tsv"
+    priority: 2
+    params:
+        gel=tube_gel,
+        tube=config["tube"],
+        settings=config["wall_times"],
+    script:
+        "../scripts/wall_times.py"

@@ -8,6 +8,7 @@ section, lengths in L, and with X_C the material point where the front is,
     axial    Integral 3 lambda^2 K lambda_X dtau              through the front's section, hotwards
     swept    Integral (1 - lambda^3) dX_C                     handed over as the front passes
     shorter  Integral (1 - lambda) dX                         by how much the tube is shorter
+    printed  Integral Integral (3/2) S lambda^-4 dX dtau      V of eqn:lumen far ahead, in time
 
     behind:  loss = source - axial + swept        ahead:  loss = source + axial - swept
 
@@ -29,6 +30,7 @@ ENTRIES = {
     "axial": (None, "water that has flowed through the wall past the front, to its hot side"),
     "swept": (None, "loss that the front has taken over in passing"),
     "shorter": (None, "length by which the tube is shorter"),
+    "printed": (None, "way that water far ahead in the lumen has gone by V of eqn:lumen"),
 }
 
 
@@ -72,7 +74,8 @@ class Ledger:
     def __init__(self, family, order: int):
         self.family = family
         self.worst = 0.0  # most that a step leaves unaccounted for on a side, over Z_C
-        self._entries = [np.zeros((4, family.tubes))]  # newest first; source twice, axial, swept
+        # newest first: source behind and ahead, axial, swept, printed
+        self._entries = [np.zeros((5, family.tubes))]
 
     def enter(self, step: Step):
         """Enter a step that `gelpump.bdf.integrate` has accepted."""
@@ -83,7 +86,7 @@ class Ledger:
         self._entries = [entry, *before]
         loss = np.array([self._state(state)[:2] for state in step.solutions])
         behind, ahead = np.tensordot(weights, loss, 1)
-        source_behind, source_ahead, axial, swept = rates
+        source_behind, source_ahead, axial, swept, _ = rates
         missing = [behind - source_behind + axial - swept, ahead - source_ahead - axial + swept]
         amount = np.abs(missing) / weights[0] / self.family.front(step.time)[:, 0]
         self.worst = max(self.worst, float(amount.max()))
@@ -99,7 +102,7 @@ class Ledger:
         w = self.family.w[:, 0]
         for suffix, values in (("", w * amounts), ("_rate", w * rates)):
             loss, shorter, source = values[:2], values[2], values[3:5]
-            found = loss.T, source.T, values[5], values[6], shorter
+            found = loss.T, source.T, values[5], values[6], shorter, values[7]
             named |= {f"{name}{suffix}": each for name, each in zip(ENTRIES, found, strict=True)}
         missing = np.abs((named["loss"] - named["source"]).sum(axis=1))
         return named | {"water_balance_error": missing / self.family.heat.front(t * t)}
@@ -131,5 +134,6 @@ class Ledger:
                 source[~family.hot].sum(0),
                 rate[:, 0] * to_water * flux[:, front],
                 velocity[:, family.behind] * (1 - at_front**3),
+                (source / stretch.T**6).sum(0) / 2,
             ]
         )

@@ -1,6 +1,7 @@
 """What tells slender tubes apart: their shape, and the piecewise-linear gel they are made of."""
 
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,3 +48,19 @@ class Tubes:
     def wall_length(self):
         """w = eps (1-ell)/4, the axial length over which radial flow heals a disturbance."""
         return self.eps * (1 - self.ell) / 4
+
+
+def one_by_one(gel, tube: Mapping, settings: Mapping) -> tuple[Tubes, list[str]]:
+    """Tubes that differ from one another in one number at a time, and which that is of each.
+
+    `settings` holds ell, and in `varied` the values of ell, M, Pi_ratio or Phi_inf; what is not
+    varied is that of `gel` and `tube`.
+    """
+    base = {"ell": settings["ell"], "eps": tube["eps"], "M": gel.M, "Pi_ratio": gel.Pi_ratio}
+    base["Phi_inf"] = gel.Phi_inf
+    rows = [
+        (key, base | {key: float(value)})
+        for key, values in settings["varied"].items()
+        for value in values
+    ]
+    return Tubes(**{key: [row[key] for _, row in rows] for key in base}), [key for key, _ in rows]

@@ -1,0 +1,249 @@
+"""What a collapsing tube pumps: the balance of all its water, and what geometry says of it.
+
+Volumes since tau = 0 on one side of Z = 0, from the books of the wall (`gelpump.tube.ledger`). The
+lumen of a slice dX has the volume pi ell^2 lambda^3 dX: it shrinks as the wall does, and the tube
+with it. With `loss`, `source`, `axial`, `swept`, `shorter` of the books, p = Phi_inf^(1/3) and
+q = Phi_inf^(-2/3),
+
+    collapse   of the lumen up to a fixed station far ahead       pi ell^2 (loss - shorter)
+               up to the tube's own end, which is drawn in        pi ell^2 loss
+    inner      water out of the wall into the lumen               pi sigma (1-ell^2) source
+    outer      water out of the wall into the bath                pi (1-sigma) (1-ell^2) source
+    along      water through the wall past the front, hotwards    pi (1-ell^2) axial
+    pumped     past the station, or out of the end                collapse + inner
+
+sigma is `wall_flow.lumen_share`. The wall's loss is what has gone through its edges:
+
+    pi (1-ell^2) loss = inner + outer -+ along +- swept   behind (ahead of) the front,
+    pi (1-ell^2) loss = inner + outer                     altogether;
+
+where water is not conserved, what remains is `unaccounted`. For the printed wall, inner and outer
+are those of eqn:ug with eqn:phi2 (`gelpump.tube.budget`), and what is pumped is V of eqn:lumen.
+
+Long after the start, tau >> w^2, all that happens while the front advances by dZ_C = lambda_hot dX
+is that swollen slices have become collapsed ones, lambda_hot^3 = 1/Phi_inf. If the wall conserves
+water, so that a front at rest sheds nothing, then per pi dZ_C
+
+    collapse   ell^2 (1-q) at the station, ell^2 (p-q) at the end
+    inner      sigma (1-ell^2) (p-q)              outer   (1-sigma) (1-ell^2) (p-q)
+
+and the velocity of the lumen's water far ahead, of area pi ell^2, is
+
+    V = Z_C' [ 1 - q + sigma (1-ell^2) (p-q)/ell^2 ] > 0 :
+
+away from the heated end, whatever the closure and the gel.
+"""
+
+from collections.abc import Mapping
+from functools import partial
+
+import numpy as np
+import xarray as xr
+
+from gelpump.finite_volume import together
+from gelpump.netcdf import variable
+from gelpump.tube import scaling
+from gelpump.tube.closure import CLOSURES
+from gelpump.tube.heat import StepHeating
+from gelpump.tube.ledger import SIDES
+from gelpump.tube.slender import solve
+from gelpump.tube.tubes import Tubes, one_by_one
+from gelpump.tube.wall_flow import lumen_share
+
+NAMES = tuple(CLOSURES)
+LINES = {
+    "collapse_station": "volume that the lumen has lost up to a fixed station far ahead",
+    "collapse_end": "volume that the lumen has lost up to the tube's own end",
+    "inner": "water that has gone out of the wall into the lumen",
+    "outer": "water that has gone out of the wall into the bath",
+    "pumped_station": "water that has gone along the lumen past a fixed station far ahead",
+    "pumped_end": "water that has gone out of the tube's own end",
+    "loss": "water that the wall has lost",
+}
+BY_SIDE = {
+    "loss_side": "water that the wall has lost on this side of the front",
+    "inner_side": "water that has gone into the lumen on this side of the front",
+    "outer_side": "water that has gone into the bath on this side of the front",
+    "unaccounted": "loss of the wall on this side of the front that no flow accounts for",
+}
+
+
+def per_advance(ell, Phi_inf) -> dict[str, np.ndarray]:
+    """Each of LINES per pi dZ_C, long after the start, of a wall that conserves water."""
+    p, q, sigma = np.cbrt(Phi_inf), Phi_inf ** (-2 / 3), lumen_share(ell)
+    wall = (1 - ell**2) * (p - q)
+    station, end = ell**2 * (1 - q), ell**2 * (p - q)
+    inner = sigma * wall
+    return {
+        "collapse_station": station,
+        "collapse_end": end,
+        "inner": inner,
+        "outer": wall - inner,
+        "pumped_station": station + inner,
+        "pumped_end": end + inner,
+        "loss": wall,
+    }
+
+
+def velocity_far(ell, Phi_inf, front_speed) -> np.ndarray:
+    """V far ahead of the front, long after the start, of a wall that conserves water."""
+    return front_speed * per_advance(ell, Phi_inf)["pumped_station"] / ell**2
+
+
+def shares(ell, closure: str) -> tuple[np.ndarray, np.ndarray]:
+    """What of the source (per pi a_1^2 L) goes into the lumen, and what into the bath."""
+    if CLOSURES[closure].conserves_water:
+        sigma = lumen_share(ell)
+        return sigma * (1 - ell**2), (1 - sigma) * (1 - ell**2)
+    return ell * (1 - ell) / 2, (1 - ell) / 2
+
+
+def volumes(pulse: xr.Dataset, rate: bool = False) -> dict[str, np.ndarray]:
+    """LINES, (ell, tau), and BY_SIDE, (ell, tau, side), of a pulse with books; or their rates."""
+    suffix = "_rate" if rate else ""
+    loss, source, axial, swept, shorter, printed = (
+        np.pi * pulse[f"{name}{suffix}"].values
+        for name in ("loss", "source", "axial", "swept", "shorter", "printed")
+    )
+    ell = pulse.ell.values[:, np.newaxis]
+    to_lumen, to_bath = shares(ell, pulse.attrs["closure"])
+    conserves = CLOSURES[pulse.attrs["closure"]].conserves_water
+    whole, through = loss.sum(axis=-1), source.sum(axis=-1)
+    station, end, inner = ell**2 * (whole - shorter), ell**2 * whole, to_lumen * through
+    pumped = station + inner if conserves else ell**2 * printed
+    section = (1 - ell**2)[..., np.newaxis]
+    passed = np.stack([swept - axial, axial - swept], axis=-1)
+    inner_side, outer_side = (share[..., np.newaxis] * source for share in (to_lumen, to_bath))
+    return {
+        "collapse_station": station,
+        "collapse_end": end,
+        "inner": inner,
+        "outer": to_bath * through,
+        "pumped_station": pumped,
+        "pumped_end": pumped + ell**2 * shorter,
+        "loss": (1 - ell**2) * whole,
+        "along": (1 - ell**2) * axial,
+        "loss_side": section * loss,
+        "inner_side": inner_side,
+        "outer_side": outer_side,
+        "unaccounted": section * (loss - passed) - inner_side - outer_side,
+    }
+
+
+def balance(pulses: Mapping[str, xr.Dataset], heat: StepHeating) -> xr.Dataset:
+    """Volumes and rates of pulses by closure, dims (closure, ell, tau), against geometry."""
+    one = next(iter(pulses.values()))
+    ell, Phi_inf = one.ell.values, one.Phi_inf.values
+    data = {}
+    for rate, suffix, what, unit in (
+        (False, "", "", scaling.VOLUME),
+        (True, "_rate", "rate of: ", scaling.VOLUME_RATE),
+    ):
+        found = [volumes(pulse, rate) for pulse in pulses.values()]
+        texts = LINES | {"along": "water that has gone through the wall past the front"} | BY_SIDE
+        for name, text in texts.items():
+            dims = ("closure", "ell", "tau", *(["side"] if name in BY_SIDE else []))
+            values = np.stack([each[name] for each in found])
+            data[f"{name}{suffix}"] = variable(dims, values, f"{what}{text}", unit)
+    tau = one.tau.values
+    for name, per in per_advance(ell, Phi_inf).items():
+        data[f"{name}_geometry"] = variable(
+            ("ell", "tau"),
+            np.pi * per[:, np.newaxis] * heat.front(tau),
+            f"long after the start, by geometry: {LINES[name]}",
+            scaling.VOLUME,
+        )
+    lumen = np.pi * ell[:, np.newaxis] ** 2
+    V = data["pumped_station_rate"][1] / lumen
+    expected = velocity_far(ell[:, np.newaxis], Phi_inf[:, np.newaxis], heat.front_speed(tau))
+    dims = ("closure", "ell", "tau")
+    data |= {
+        "V_far": variable(dims, V, "velocity in the lumen far ahead", scaling.AXIAL_VELOCITY),
+        "V_far_geometry": variable(
+            dims[1:], expected, "the same by geometry, long after the start", scaling.AXIAL_VELOCITY
+        ),
+        "V_far_order": variable(
+            dims[:2],
+            _order(tau, V / expected - 1),
+            "order in 1/tau at which V far ahead tends to that by geometry",
+            "fitted to the last third of the times",
+        ),
+        "water_balance_error": variable(
+            dims,
+            np.stack([pulse.water_balance_error.values for pulse in pulses.values()]),
+            "loss of the wall less what has gone through its edges, over Z_C",
+        ),
+        "water_balance_step": variable(
+            "closure",
+            [float(pulse.attrs["water_balance_step"]) for pulse in pulses.values()],
+            "most of that in one step of time",
+        ),
+        "Phi1_front": variable(
+            dims,
+            np.stack([pulse.Phi1_front.values for pulse in pulses.values()]),
+            "polymer fraction in the middle of the wall at Z_C",
+            scaling.POLYMER,
+        ),
+        "Z_C": variable("tau", heat.front(tau), "position of the front", scaling.AXIAL),
+    }
+    coords = {
+        "closure": ("closure", list(pulses), {"long_name": "closure of the slender tube"}),
+        "ell": scaling.ell(ell),
+        "tau": scaling.tau(tau),
+        "side": ("side", list(SIDES), {"long_name": "side of the front"}),
+    }
+    return xr.Dataset(data, coords)
+
+
+def _order(tau, error):
+    """-d ln|error|/d ln tau over the last third of the times."""
+    late = slice(2 * len(tau) // 3, None)
+    x = np.log(tau[late])
+    x = x - x.mean()
+    return -(np.log(np.abs(error[..., late])) * x).sum(axis=-1) / (x**2).sum()
+
+
+def closures(tubes: Tubes, heat: StepHeating, tau, numerics: Mapping) -> dict[str, xr.Dataset]:
+    """The tubes by each closure, with books, in the same sweeps."""
+    given = _numerics(numerics)
+    runs = [partial(solve, tubes, heat, tau, closure=n, books=True, **given) for n in NAMES]
+    return dict(zip(NAMES, together(*runs), strict=True))
+
+
+def response(gel, tube: Mapping, settings: Mapping, numerics: Mapping) -> xr.Dataset:
+    """What the conservative closure pumps per advance of the front, dims (tube, tau).
+
+    The tubes are those of `gelpump.tube.tubes.one_by_one`.
+    """
+    tubes, varied = one_by_one(gel, tube, settings)
+    heat, tau = StepHeating(tube["Le"]), np.array(settings["tau"])
+    pulse = solve(tubes, heat, tau, closure="conservative", **_numerics(numerics))
+    found, expected = volumes(pulse), per_advance(tubes.ell, tubes.Phi_inf)
+    advance, unit = np.pi * heat.front(tau), "in units of a_1^2"
+    data = {}
+    for name, text in LINES.items():
+        per = variable(("tube", "tau"), found[name] / advance, f"{text}, per pi Z_C", unit)
+        geometry = variable("tube", expected[name], f"by geometry: {text}, per pi Z_C", unit)
+        data |= {name: per, f"{name}_geometry": geometry}
+    for key in ("ell", "M", "Pi_ratio", "Phi_inf"):
+        data[key] = variable("tube", getattr(tubes, key), f"{key} of the tube")
+    coords = {
+        "varied": ("tube", varied, {"long_name": "number that is varied"}),
+        "tau": scaling.tau(tau),
+    }
+    return xr.Dataset(data, coords)
+
+
+def _numerics(settings: Mapping) -> dict:
+    return {**settings, "cells": tuple(settings["cells"])}
+
+
+def joined(pulses: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    """Pulses by closure as one dataset, dims (closure, ell, tau, cell)."""
+    conserving = {k: v for k, v in pulses.items() if CLOSURES[k].conserves_water}
+    attrs = {key: next(iter(conserving.values())).attrs[key] for key in ("cells_behind", "cells_ahead")}
+    names = xr.Variable("closure", list(conserving), {"long_name": "closure of the slender tube"})
+    same = ("Z_C", "hot", "eps", "M", "Pi_ratio", "Phi_inf")
+    parts = [pulse.drop_vars(same) for pulse in conserving.values()]
+    whole = xr.concat(parts, names, data_vars="all", combine_attrs="drop")
+    return whole.assign({key: next(iter(conserving.values()))[key] for key in same}).assign_attrs(attrs)

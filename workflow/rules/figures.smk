@@ -17,6 +17,9 @@ FIGURES = expand(
         "fig12_axial_flow",
         "fig13_osmotic",
         "fig14_equilibrium",
+        "figX1_conservation",
+        "figX2_wall",
+        "figX4_pump_balance",
     ],
     suffix=["pdf", "png", "svg", "csv"],
 )
@@ -399,3 +402,79 @@ rule fig14_equilibrium:
         published=published("tc-up-anb", "tc-down-anb", "tc-hht"),
     script:
         "../scripts/fig14_equilibrium.py"
+
+
+rule figX1_conservation:
+    input:
+        balance=f"{DATA}/pump_balance.nc",
+        conserving=f"{DATA}/pump_pulse.nc",
+        printed=f"{DATA}/tube_pulse.nc",
+        src=modules("figX1_conservation"),
+    output:
+        pdf="results/figures/figX1_conservation.pdf",
+        csv="results/figures/figX1_conservation.csv",
+        svg="results/figures/figX1_conservation.svg",
+        png=report(
+            "results/figures/figX1_conservation.png",
+            caption="../report/figX1_conservation.rst",
+            category="Figures",
+            subcategory="Beyond the paper",
+            labels={"figure": "X1", "shows": "whether the wall conserves water, by closure"},
+        ),
+    log:
+        "results/logs/figX1_conservation.log",
+    benchmark:
+        "results/benchmarks/figX1_conservation.tsv"
+    params:
+        figure=config["figures"]["figX1_conservation"],
+    script:
+        "../scripts/figX1_conservation.py"
+
+
+rule figX2_wall:
+    input:
+        times=f"{DATA}/wall_times.nc",
+        src=modules("figX2_wall"),
+    output:
+        pdf="results/figures/figX2_wall.pdf",
+        csv="results/figures/figX2_wall.csv",
+        svg="results/figures/figX2_wall.svg",
+        png=report(
+            "results/figures/figX2_wall.png",
+            caption="../report/figX2_wall.rst",
+            category="Figures",
+            subcategory="Beyond the paper",
+            labels={"figure": "X2", "shows": "how fast a wall resolved in r deswells"},
+        ),
+    log:
+        "results/logs/figX2_wall.log",
+    benchmark:
+        "results/benchmarks/figX2_wall.tsv"
+    script:
+        "../scripts/figX2_wall.py"
+
+
+rule figX4_pump_balance:
+    input:
+        balance=f"{DATA}/pump_balance.nc",
+        response=f"{DATA}/pump_response.nc",
+        src=modules("figX4_pump_balance"),
+    output:
+        pdf="results/figures/figX4_pump_balance.pdf",
+        csv="results/figures/figX4_pump_balance.csv",
+        svg="results/figures/figX4_pump_balance.svg",
+        png=report(
+            "results/figures/figX4_pump_balance.png",
+            caption="../report/figX4_pump_balance.rst",
+            category="Figures",
+            subcategory="Beyond the paper",
+            labels={"figure": "X4", "shows": "where the water of the pump goes"},
+        ),
+    log:
+        "results/logs/figX4_pump_balance.log",
+    benchmark:
+        "results/benchmarks/figX4_pump_balance.tsv"
+    params:
+        figure=config["figures"]["figX4_pump_balance"],
+    script:
+        "../scripts/figX4_pump_balance.py"

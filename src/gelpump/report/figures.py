@@ -96,6 +96,27 @@ DRAWINGS = {
         "with two folds, wide apart in the first gel and close together, enlarged by an inset, "
         "in the second.",
     ),
+    "figX1_conservation": Drawing(
+        "Whether the wall conserves water",
+        "Top left: what the wall has lost and what has gone through its edges over time, one pair "
+        "of curves for each closure; the printed pair parts, the others coincide. Top right: the "
+        "difference, near one for the printed closure, at rounding for the others. Below: polymer "
+        "fraction across the front by each closure, three falling curves.",
+    ),
+    "figX2_wall": Drawing(
+        "How fast a wall resolved in r deswells",
+        "Three panels of the deswelling time over the shear parameter, over ell and over the "
+        "contrast of polymer fractions. Lines of the slender closures, and dots of the resolved "
+        "wall: with no force on the surface the time hardly depends on the shear parameter.",
+    ),
+    "figX4_pump_balance": Drawing(
+        "Where the water of the pump goes",
+        "Top left: stacked areas over ell, the lumen's collapse, the wall's water into the lumen "
+        "and into the bath, with dots on their edges. Top right: velocity far ahead over time, "
+        "two closures tending to a dotted line that the printed one crosses. Below: pumped "
+        "volumes over the contrast of polymer fractions and over the shear parameter, dots on "
+        "grey lines.",
+    ),
     "verification": Drawing(
         "Errors of the solvers on known solutions",
         "Errors over the number of cells and of time steps on logarithmic axes, falling along "

@@ -60,6 +60,10 @@ LINES = {
     "pumped_end": "water that has gone out of the tube's own end",
     "loss": "water that the wall has lost",
 }
+WHOLE = {
+    "source_loss": "water that the source of the solved equation has taken from the wall",
+    "along": "water that has gone through the wall past the front, to its hot side",
+}
 BY_SIDE = {
     "loss_side": "water that the wall has lost on this side of the front",
     "inner_side": "water that has gone into the lumen on this side of the front",
@@ -122,6 +126,7 @@ def volumes(pulse: xr.Dataset, rate: bool = False) -> dict[str, np.ndarray]:
         "pumped_station": pumped,
         "pumped_end": pumped + ell**2 * shorter,
         "loss": (1 - ell**2) * whole,
+        "source_loss": (1 - ell**2) * through,
         "along": (1 - ell**2) * axial,
         "loss_side": section * loss,
         "inner_side": inner_side,
@@ -140,7 +145,7 @@ def balance(pulses: Mapping[str, xr.Dataset], heat: StepHeating) -> xr.Dataset:
         (True, "_rate", "rate of: ", scaling.VOLUME_RATE),
     ):
         found = [volumes(pulse, rate) for pulse in pulses.values()]
-        texts = LINES | {"along": "water that has gone through the wall past the front"} | BY_SIDE
+        texts = LINES | WHOLE | BY_SIDE
         for name, text in texts.items():
             dims = ("closure", "ell", "tau", *(["side"] if name in BY_SIDE else []))
             values = np.stack([each[name] for each in found])
@@ -185,6 +190,7 @@ def balance(pulses: Mapping[str, xr.Dataset], heat: StepHeating) -> xr.Dataset:
             scaling.POLYMER,
         ),
         "Z_C": variable("tau", heat.front(tau), "position of the front", scaling.AXIAL),
+        "Phi_inf": one.Phi_inf,
     }
     coords = {
         "closure": ("closure", list(pulses), {"long_name": "closure of the slender tube"}),
@@ -241,9 +247,13 @@ def _numerics(settings: Mapping) -> dict:
 def joined(pulses: Mapping[str, xr.Dataset]) -> xr.Dataset:
     """Pulses by closure as one dataset, dims (closure, ell, tau, cell)."""
     conserving = {k: v for k, v in pulses.items() if CLOSURES[k].conserves_water}
-    attrs = {key: next(iter(conserving.values())).attrs[key] for key in ("cells_behind", "cells_ahead")}
+    attrs = {
+        key: next(iter(conserving.values())).attrs[key] for key in ("cells_behind", "cells_ahead")
+    }
     names = xr.Variable("closure", list(conserving), {"long_name": "closure of the slender tube"})
     same = ("Z_C", "hot", "eps", "M", "Pi_ratio", "Phi_inf")
     parts = [pulse.drop_vars(same) for pulse in conserving.values()]
     whole = xr.concat(parts, names, data_vars="all", combine_attrs="drop")
-    return whole.assign({key: next(iter(conserving.values()))[key] for key in same}).assign_attrs(attrs)
+    return whole.assign({key: next(iter(conserving.values()))[key] for key in same}).assign_attrs(
+        attrs
+    )

@@ -4,7 +4,7 @@ The temperature is changed everywhere at once, so nothing varies along the tube.
 keeps the radius s that it had when swollen, ell <= s <= 1, and y = s^2/2; with J = 1/Phi a ring dy
 has the volume J dy for each unit of swollen length. All lengths of the tube change alike, by
 
-    lambda = <J>^(1/3) ,    B_0 = ell lambda ,    B_1 = lambda ,    r^2 = B_0^2 + (2/lambda) Int J dy
+    lambda = <J>^(1/3) ,  B_0 = ell lambda ,  B_1 = lambda ,  r^2 = B_0^2 + (2/lambda) Int J dy
 
 (`gelpump.tube.closure` derives that xi/r on the edges and eta_z are equal; < > is the mean over y,
 and 1/<J> that of Phi over the wall). Water leaves a ring by D Phi_r/Phi through r lambda:
@@ -100,9 +100,7 @@ class Walls:
                 raise NotConverged
             Phi = 1 / J
             edge = self.surface_fraction(J) + np.zeros_like(J[:, :1])
-            conductance = (
-                self.unit * (self.radius(J) * self.stretch(J)) ** 2 / self.gap
-            )
+            conductance = self.unit * (self.radius(J) * self.stretch(J)) ** 2 / self.gap
             flux = conductance * np.diff(self.potential(np.hstack([edge, Phi, edge])), axis=1)
             residual = self.dy * (alpha * J + history) + np.diff(flux, axis=1)
             # Psi_J = -D Phi^2 differs from cell to cell: scaled by it, the operator is symmetric

@@ -1,0 +1,94 @@
+"""The pump's balance: what goes where, what geometry says, and what the printed flow misses."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gelpump.materials import PiecewiseLinearGel
+from gelpump.tube import pump
+from gelpump.tube.heat import StepHeating
+from gelpump.tube.tubes import Tubes
+
+HEAT = StepHeating(10.0)
+TAU = np.geomspace(1e-3, 0.1, 7)
+NUMERICS = {"cells": [48, 30], "tolerance": 1e-4, "reach": 12.0}
+ELL = np.array([0.1, 0.5, 0.9])
+
+
+@pytest.fixture(scope="module")
+def pulses():
+    return pump.closures(Tubes(ELL), HEAT, TAU, NUMERICS)
+
+
+@pytest.fixture(scope="module")
+def balance(pulses):
+    return pump.balance(pulses, HEAT)
+
+
+def test_all_water_is_accounted_for(balance):
+    """Against shapes, not against the books that the flows are kept in."""
+    conserving = balance.sel(closure=["conservative", "balanced"])
+    assert np.abs(conserving.unaccounted).max() < 1e-8
+    assert np.abs(conserving.loss - conserving.inner - conserving.outer).max() < 1e-8
+    shortening = conserving.pumped_end - conserving.pumped_station
+    area = np.pi * balance.ell**2
+    collapse = conserving.collapse_end - conserving.collapse_station
+    np.testing.assert_allclose(shortening, collapse, atol=1e-12)
+    assert (shortening / area > 0).all()
+    printed = balance.sel(closure="printed")
+    missing = (printed.loss - printed.inner - printed.outer) / printed.loss
+    assert (np.abs(missing) > 0.05).all()
+
+
+def test_the_lumens_volume_is_that_of_its_shape(pulses, balance):
+    for closure in ("conservative", "balanced"):
+        pulse = pulses[closure]
+        area = np.pi * balance.ell**2 * pulse.Phi1 ** (-2 / 3)
+        length = pulse.Z_face.diff("face").values
+        volume = (area * length).sum("cell")
+        swollen = np.pi * balance.ell**2 * pulse.Z_face.isel(face=-1)
+        lost = balance.collapse_station.sel(closure=closure)
+        np.testing.assert_allclose(swollen - volume, lost, rtol=1e-5)
+
+
+def test_flow_far_ahead_is_away_from_the_heat_and_tends_to_geometry(balance):
+    conserving = balance.sel(closure=["conservative", "balanced"])
+    assert (conserving.V_far > 0).all()
+    late = conserving.isel(tau=-1)
+    np.testing.assert_allclose(late.V_far, np.broadcast_to(late.V_far_geometry, (2, 3)), rtol=5e-3)
+    assert np.abs(conserving.V_far_order.sel(ell=[0.1, 0.5]) - 1).max() < 0.06
+    assert np.abs(balance.V_far_order.sel(closure="printed") - 1).min() > 0.3
+    expected = {0.1: 200.0, 0.5: 16.6, 0.9: 6.7}  # at tau = 0.01
+    for ell, V in expected.items():
+        found = pump.velocity_far(ell, 2.0, HEAT.front_speed(0.01))
+        assert found == pytest.approx(V, rel=7e-3)
+
+
+def test_geometry_adds_up():
+    ell, Phi_inf = np.meshgrid(np.linspace(0.05, 0.95, 7), [1.0, 1.5, 2.0, 8.0])
+    per = pump.per_advance(ell, Phi_inf)
+    np.testing.assert_allclose(per["inner"] + per["outer"], per["loss"])
+    p = np.cbrt(Phi_inf)
+    shorter = ell**2 * (p - 1)  # a slice dZ hot was p dZ long
+    np.testing.assert_allclose(per["pumped_end"] - per["pumped_station"], shorter, atol=1e-15)
+    swollen = p * (1 - 1 / Phi_inf)  # of one slice of that length, wall and lumen alike
+    np.testing.assert_allclose(per["loss"] + per["collapse_end"], swollen, atol=1e-14)
+
+
+def test_rates_are_the_derivatives_of_volumes(balance):
+    one = balance.sel(closure="conservative", ell=0.5)
+    from scipy.interpolate import CubicSpline
+
+    root = np.sqrt(TAU)
+    rate = CubicSpline(root, one.pumped_station)(root, 1) / (2 * root)
+    np.testing.assert_allclose(rate[1:-1], one.pumped_station_rate[1:-1], rtol=2e-2)
+
+
+def test_response_does_not_depend_on_stiffness():
+    gel = PiecewiseLinearGel(Phi_inf=2.0, Pi_ratio=1.0, M=1.0)
+    settings = {"ell": 0.5, "tau": [0.1], "varied": {"M": [0.1, 10.0], "Phi_inf": [1.5, 4.0]}}
+    found = pump.response(gel, {"eps": 0.1, "Le": 10.0}, settings, NUMERICS).isel(tau=0)
+    assert isinstance(found, xr.Dataset)
+    assert found.varied.values.tolist() == ["M", "M", "Phi_inf", "Phi_inf"]
+    np.testing.assert_allclose(found.pumped_station, found.pumped_station_geometry, rtol=8e-3)
+    assert found.pumped_station[3] > 2 * found.pumped_station[2]

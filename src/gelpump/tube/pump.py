@@ -35,12 +35,10 @@ away from the heated end, whatever the closure and the gel.
 """
 
 from collections.abc import Mapping
-from functools import partial
 
 import numpy as np
 import xarray as xr
 
-from gelpump.finite_volume import together
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
 from gelpump.tube.closure import CLOSURES
@@ -210,10 +208,9 @@ def _order(tau, error):
 
 
 def closures(tubes: Tubes, heat: StepHeating, tau, numerics: Mapping) -> dict[str, xr.Dataset]:
-    """The tubes by each closure, with books, in the same sweeps."""
+    """The tubes by each closure, with books."""
     given = _numerics(numerics)
-    runs = [partial(solve, tubes, heat, tau, closure=n, books=True, **given) for n in NAMES]
-    return dict(zip(NAMES, together(*runs), strict=True))
+    return {name: solve(tubes, heat, tau, closure=name, books=True, **given) for name in NAMES}
 
 
 def response(gel, tube: Mapping, settings: Mapping, numerics: Mapping) -> xr.Dataset:

@@ -34,7 +34,7 @@ from scipy.optimize import brentq
 from scipy.special import j0, y0
 
 from gelpump.bdf import MAX_TRIALS, NotConverged, integrate
-from gelpump.finite_volume import NewtonSweep, together
+from gelpump.finite_volume import NewtonSweep
 from gelpump.tube.closure import named
 from gelpump.tube.tubes import Tubes
 
@@ -166,12 +166,10 @@ def _excess(walls, step, which, tube, wanted, t):
 def deswelling_times(tubes: Tubes) -> tuple[np.ndarray, np.ndarray]:
     """tau_99 by SURFACES, on the midline and of the mean, (2, 2, tube), and its uncertainty."""
     fewer, looser = COARSER
-    runs = together(
-        *(partial(relax, tubes, surface) for surface in SURFACES),
-        *(partial(relax, tubes, surface, CELLS // fewer, TOLERANCE * looser)
-          for surface in SURFACES),
-    )  # fmt: skip
-    fine, coarse = np.array(runs[:2]), np.array(runs[2:])
+    fine = np.array([relax(tubes, surface) for surface in SURFACES])
+    coarse = np.array(
+        [relax(tubes, surface, CELLS // fewer, TOLERANCE * looser) for surface in SURFACES]
+    )
     return fine, SAFETY * np.abs(fine - coarse) / (fewer**2 - 1)
 
 

@@ -39,6 +39,10 @@ class Mutant(NamedTuple):
 
 
 GEL = "src/gelpump/materials/energy_based.py"
+EXPLICIT = "src/gelpump/materials/explicit.py"
+FLORY_REHNER = "src/gelpump/materials/flory_rehner.py"
+FITTED = "src/gelpump/materials/measured.py"
+TABLE = "src/gelpump/materials/measurements.py"
 LINEAR = "src/gelpump/materials/piecewise_linear.py"
 LENS = "src/gelpump/bead/lens.py"
 NONLINEAR = "src/gelpump/bead/nonlinear.py"
@@ -85,10 +89,45 @@ MUTANTS = (
     ),
     Mutant(
         "swollen and dry branch swapped",
-        GEL,
+        EXPLICIT,
         '[0 if branch == "swollen" else -1]',
         '[-1 if branch == "swollen" else 0]',
         TEST_GEL,
+    ),
+    Mutant(
+        "an extremum of T forgotten",
+        EXPLICIT,
+        "[[_SEARCH[0], _SEARCH[-1]], extrema, poles]",
+        "[[_SEARCH[0], _SEARCH[-1]], poles]",
+        "tests/materials/test_flory_rehner.py -k missed",
+    ),
+    Mutant(
+        "chi of the energy taken for that of the pressure",
+        FLORY_REHNER,
+        "[0, 2, -2], [0, 0, 3.0]",
+        "[0, 2, -1], [0, 0, 3.0]",
+        "tests/materials/test_flory_rehner.py -k slope_of_the_energy",
+    ),
+    Mutant(
+        "a reference state half forgotten",
+        FLORY_REHNER,
+        "LOGARITHM[kind] * phi_ref ** (-2 / 3)",
+        "LOGARITHM[kind] * phi_ref ** (-1 / 3)",
+        "tests/materials/test_flory_rehner.py -k slope_of_the_energy",
+    ),
+    Mutant(
+        "points may lie on the unstable branch",
+        FITTED,
+        "if nearest > FAR and not",
+        "if nearest > 1e9 and not",
+        "tests/materials/test_measured.py -k unstable_branch",
+    ),
+    Mutant(
+        "thousands read as decimals",
+        TABLE,
+        "if all(THOUSANDS.fullmatch(cell) for cell in commas):",
+        "if False:",
+        "tests/materials/test_measurements.py -k refused_in_words",
     ),
     Mutant(
         "wrong factor of M in D",

@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 import pint
 import pytest
+import xarray as xr
 import yaml
 from scipy.integrate import quad
 from scipy.special import erfinv
 
 from gelpump.design import __main__ as command
-from gelpump.design import description, device, inverse, units, validity
+from gelpump.design import dataset, description, device, inverse, units, validity
 from gelpump.design.gel_errors import gel_errors, gel_note
 from gelpump.design.result import AMBER, GREEN, RED
 from gelpump.materials import measured
@@ -311,6 +312,15 @@ def test_a_gel_of_the_literature_brings_its_own_solvent():
     assert halved.material.Pi_00 == pytest.approx(found.material.Pi_00 / 2, rel=1e-12)
     with pytest.raises(description.DesignError, match="molecule_volume = '3e-29 m"):
         description.checked("mine", given | {"molecule_volume": "3e-29 m^3"}, {name: gel})
+
+
+def test_what_to_beware_of_in_a_measured_gel_stands_in_the_table():
+    data = xr.Dataset(attrs={"gel_warnings": "Of the gel’s fit: no point is dry."})
+    [(key, text, *_)] = dataset.csv_rows(data)
+    assert (key, text) == ("gel_warnings", data.attrs["gel_warnings"])
+    fit = measured_gel()[1]
+    for chi2, light in ((1.0, GREEN), (5.0, AMBER), (20.0, RED)):
+        assert validity.fitted(replace(fit, reduced_chi2=chi2)).light == light
 
 
 def plausible(found):

@@ -61,6 +61,66 @@ def test_a_block_of_any_keys_is_refused_in_words(block):
         from_config("gel", block)
 
 
+CHI = st.one_of(
+    st.floats(-3.0, 3.0),
+    st.fixed_dictionaries({"constant": st.floats(-30.0, 30.0), "slope": st.floats(-0.1, 0.1)}),
+    st.fixed_dictionaries({"A": st.floats(-30.0, 30.0), "Theta": st.floats(250.0, 400.0)}),
+)
+LITERATURE = st.fixed_dictionaries({
+    "model": st.just("flory-rehner"),
+    "chi": st.fixed_dictionaries(
+        {"chi_1": CHI}, optional={"chi_2": CHI, "chi_3": CHI, "of": st.just("free-energy")}
+    ),
+    "network": st.fixed_dictionaries({
+        "elasticity": st.sampled_from(["neo-Hookean", "affine", "phantom"]),
+        "reference_polymer_fraction": st.floats(0.01, 1.0),
+        "chain_length": st.floats(2.0, 1e4),
+    }),
+    "temperature_range": st.just([280.0, 330.0]),
+})  # fmt: skip
+
+
+@given(LITERATURE, st.data())
+@settings(max_examples=300)
+def test_a_gel_of_the_literature_is_taken_or_refused_by_name(block, data):
+    """Any value in place of any key, at any depth, or any key beside them."""
+    whole = {**block, "ions": {"charges_per_chain": 1.0, "salt": 3.0}}
+    inside = data.draw(st.sampled_from([(), ("chi",), ("network",), ("ions",)]))
+    target = dict(whole)
+    for key in inside:
+        target = whole[key] = dict(whole[key])
+    if not inside:
+        whole = target
+    target[data.draw(st.sampled_from([*target, "x"]))] = data.draw(ANYTHING)
+    with refused(ValueError, "gel"):
+        gel = from_config("gel", whole)
+        assert np.isfinite(gel.osmotic_pressure(0.3, 300.0))
+
+
+@given(LITERATURE, st.floats(281.0, 329.0))
+@settings(max_examples=150)
+def test_what_a_gel_of_the_literature_says_holds(block, T):
+    with refused(ValueError, "no coefficient depends", "all be linear in T") as refusal:
+        gel = from_config("gel", block)
+    if refusal.happened:
+        return
+    phi, stable = gel.equilibrium_polymer_fractions(T)
+    assert np.all(np.diff(phi) > 0)
+    away = (1 - phi > 1e-6) & (phi > 1e-8)
+    below, above = (gel.osmotic_pressure(phi[away] * s, T) for s in (1 - 1e-9, 1 + 1e-9))
+    assert np.all(below * above <= 0)
+    if len(phi) > 1:  # stable and unstable equilibria alternate
+        assert np.all(stable[1:] != stable[:-1])
+    for root in gel.spinodal_polymer_fractions(T):
+        low, high = (gel.diffusivity(root * s, T) for s in (1 - 1e-9, 1 + 1e-9))
+        assert low * high <= 0 or root > 1 - 1e-6
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        table = tabulated(gel, [300.0, 310.0], 101)
+    for name, values in table.variables.items():
+        assert np.all(np.isfinite(values)), name
+
+
 @given(st.fixed_dictionaries(PLAUSIBLE), st.floats(280.0, 330.0))
 @settings(max_examples=150)
 def test_equilibria_and_spinodals_are_what_they_say(block, T):

@@ -131,7 +131,9 @@ def answers(data: xr.Dataset) -> list[str]:
 
 def csv_rows(data: xr.Dataset):
     """Rows of key, meaning, value, unit, numerical uncertainty, standard error of the measured gel,
-    source, one a number, light or range end."""
+    source, one a number, light or range end; what to beware of in a measured gel comes first."""
+    if "gel_warnings" in data.attrs:
+        yield "gel_warnings", data.attrs["gel_warnings"], "", "", "", "", "measured equilibria"
     for key in numbers(data):
         each = data[key]
         errors = [

@@ -104,3 +104,45 @@ rule slenderness:
         gel=tube_gel,
     script:
         "../scripts/slenderness.py"
+
+
+rule figX3_slenderness:
+    input:
+        slenderness=f"{TRUTH}/slenderness.nc",
+        src=modules("figX3_slenderness"),
+    output:
+        expand(f"{TRUTH}/figX3_slenderness.{{suffix}}", suffix=["pdf", "png", "svg", "csv"]),
+    log:
+        "results/logs/figX3_slenderness.log",
+    script:
+        "../scripts/figX3_slenderness.py"
+
+
+rule figX3_fields:
+    input:
+        pulses=f"{TRUTH}/pulses.nc",
+        waves=f"{TRUTH}/waves.nc",
+        slenderness=f"{TRUTH}/slenderness.nc",
+        src=modules("figX3_fields"),
+    output:
+        expand(f"{TRUTH}/figX3_fields.{{suffix}}", suffix=["pdf", "png", "svg", "csv"]),
+    log:
+        "results/logs/figX3_fields.log",
+    script:
+        "../scripts/figX3_fields.py"
+
+
+rule truth_statements:
+    input:
+        data=expand(
+            f"{TRUTH}/{{name}}.nc",
+            name=["waves", "pulses", "walls", "verification", "slenderness"],
+        ),
+        src=modules("truth_statements"),
+    output:
+        table=f"{TRUTH}/statements.md",
+        records=f"{TRUTH}/statements.json",
+    log:
+        "results/logs/truth_statements.log",
+    script:
+        "../scripts/truth_statements.py"

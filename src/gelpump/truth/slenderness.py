@@ -63,9 +63,14 @@ def collapse_time(closure, ell: float, gel: PiecewiseLinearGel) -> float:
 
 
 def slender(
-    name: str, gel: PiecewiseLinearGel, Le: float, ells: Sequence[float], T: Sequence[float]
+    name: str,
+    gel: PiecewiseLinearGel,
+    Le: float,
+    ells: Sequence[float],
+    T: Sequence[float],
+    drawn: float,
 ) -> dict[str, np.ndarray]:
-    """TEXT but for tau_99 of a closure, in the truth's units, (ell, T)."""
+    """TEXT but for tau_99 of a closure, in the truth's units, (ell, T); profiles at T = `drawn`."""
     ells, T = np.asarray(ells, float), np.asarray(T, float)
     dense = np.sort(
         np.unique(np.r_[T, np.geomspace(EARLIER * T[0], T[-1], POINTS * T.size)])
@@ -90,15 +95,31 @@ def slender(
         loss, loss_rate = run.loss.sum("side").values, run.loss_rate.sum("side").values
         pumped = (gain * loss - area * run.shorter.values) / EPS
         V = (gain * loss_rate - area * run.shorter_rate.values) / area * EPS
-    A, _ = sharpness(run.isel(tau=at))
-    widths = [[_width(run.isel(ell=i, tau=j)) for j in at] for i in range(ells.size)]
-    return {"width": np.array(widths) / EPS, "A": A * EPS, "V_far": V, "pumped": pumped}
+    run = run.isel(tau=at)
+    A, _ = sharpness(run)
+    shown = int(np.abs(T - drawn).argmin())
+    profiles = [_profile(run.isel(ell=i, tau=shown)) for i in range(ells.size)]
+    widths = [
+        [_width(*_profile(run.isel(ell=i, tau=j))) for j in range(T.size)] for i in range(ells.size)
+    ]
+    return {
+        "width": np.array(widths) / EPS,
+        "A": A * EPS,
+        "V_far": V,
+        "pumped": pumped,
+        "z": np.array([Z for Z, _ in profiles]) / EPS,
+        "Phi": np.array([Phi for _, Phi in profiles]),
+    }
 
 
-def _width(tube):
-    hot = tube.hot.values
-    Z = np.insert(tube.Z.values, hot.sum(), float(tube.Z_C))
-    Phi = np.insert(tube.Phi1.values, hot.sum(), float(tube.Phi1_front))
+def _profile(tube):
+    """Z less that of the front, and Phi_1; the front has a point of its own."""
+    hot = int(tube.hot.sum())
+    Z = np.insert(tube.Z.values, hot, float(tube.Z_C)) - float(tube.Z_C)
+    return Z, np.insert(tube.Phi1.values, hot, float(tube.Phi1_front))
+
+
+def _width(Z, Phi):
     high, low = (np.interp(-(1 + x * (Phi[0] - 1)), -Phi, Z) for x in (LEVELS[-1], LEVELS[0]))
     return low - high
 
@@ -107,7 +128,7 @@ def slenderness(pulses: xr.Dataset, walls: xr.Dataset, gel: PiecewiseLinearGel) 
     """Each closure's values and relative errors; dims (closure, ell, T), tau_99 (closure, wall)."""
     ells, T = pulses.ell.values, pulses["T"].values
     names = list(CLOSURES)
-    found = [slender(name, gel, float(pulses.Le), ells, T) for name in names]
+    found = [slender(name, gel, float(pulses.Le), ells, T, float(pulses.drawn_T)) for name in names]
     data = {}
     for quantity in ("width", "A", "V_far", "pumped"):
         values = np.array([each[quantity] for each in found])
@@ -119,6 +140,9 @@ def slenderness(pulses: xr.Dataset, walls: xr.Dataset, gel: PiecewiseLinearGel) 
             truth[mean] = pulses.width_mean.values
             error[mean] = pulses.width_mean_uncertainty.values
         data |= _compared(quantity, ("closure", "ell", "T"), values, truth, error)
+    for name, text in (("z", "axial position less that of the front"), ("Phi", "Phi_1")):
+        values = np.array([each[name] for each in found])
+        data[name] = variable(("closure", "ell", "point"), values, f"{text}, slender")
     here = walls.sel(M=gel.M, method="nearest")
     times = np.array(
         [[collapse_time(CLOSURES[n], x, gel) for x in walls.ell.values] for n in names]

@@ -122,7 +122,7 @@ def _refuse(problems: Iterator[str]) -> None:
         raise ConfigError("the configuration is refused:\n  " + "\n  ".join(found))
 
 
-def value_problems(value, key) -> Iterator[str]:
+def value_problems(value: Any, key: str) -> Iterator[str]:
     """Keys that are not strings, and numbers that a float cannot hold."""
     if isinstance(value, dict):
         for name, each in value.items():
@@ -137,7 +137,7 @@ def value_problems(value, key) -> Iterator[str]:
         yield f"{key} = {str(value)[:20]}: must be a finite number"
 
 
-def schema_problems(config, schema) -> Iterator[str]:
+def schema_problems(config: Any, schema: Mapping[str, Any]) -> Iterator[str]:
     """What a JSON schema refuses, in words: key, value and what is allowed."""
     from jsonschema import Draft202012Validator
 

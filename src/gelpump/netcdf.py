@@ -21,7 +21,11 @@ PAPER = (
 )
 
 
-def variable(dims, values, long_name: str, comment: str = ""):
+Variable = tuple[Any, Any, dict[str, str]]
+"""Dimensions, values and attributes, as xarray takes them."""
+
+
+def variable(dims: Any, values: Any, long_name: str, comment: str = "") -> Variable:
     """A dimensionless variable as xarray takes it, with the attributes that CF asks for."""
     attrs = {"long_name": long_name, "units": "1"}
     return dims, values, attrs | ({"comment": comment} if comment else {})
@@ -34,7 +38,7 @@ def write(
     parameters: Mapping[str, Any],
     provenance: "Provenance | None" = None,
     flag: str | None = None,
-):
+) -> None:
     """Write ``dataset`` to ``path``, with ``parameters`` (the rule's config) in its attributes.
 
     ``provenance`` adds what it was made from; every rule gives it, a session by hand has none.

@@ -15,6 +15,8 @@ All of this overrides methods that FiPy does not promise to keep.  `finite_volum
 compares its first sweep with that of FiPy's public terms, and leaves it where they differ.
 """
 
+from typing import Any
+
 import numpy as np
 from scipy.linalg import solve_banded
 
@@ -26,7 +28,7 @@ fipy = plain_fipy.load()
 class Diagonals:
     """The diagonals above, on and below the main one, as `solve_banded` takes them."""
 
-    def __init__(self, cells):
+    def __init__(self, cells: int):
         self.bands = np.zeros((3, cells))
         self.shape = cells, cells
 
@@ -41,14 +43,14 @@ class Diagonals:
 class Matrix(fipy.matrices.scipyMatrix._ScipyMeshMatrix):
     """What FiPy's terms add their entries to; any outside the three diagonals is an IndexError."""
 
-    def __init__(self, mesh, **_):
+    def __init__(self, mesh: Any, **_: Any):
         super().__init__(mesh=mesh, matrix=Diagonals(mesh.numberOfCells))
 
-    def zeroEntries(self):
+    def zeroEntries(self) -> None:
         """Begin anew."""
         self.matrix.bands[:] = 0.0
 
-    def addAt(self, vector, id1, id2):
+    def addAt(self, vector: np.ndarray, id1: np.ndarray, id2: np.ndarray) -> None:
         """Add to the entries of rows id1 and columns id2: a face is named once in each call."""
         self.matrix.bands[1 + id1 - id2, id2] += vector
 
@@ -110,7 +112,13 @@ class Equation:
         if drifts:
             self.equation -= Convection(coeff=self.u)
 
-    def correction(self, conductance, reaction, residual, drift=None) -> np.ndarray:
+    def correction(
+        self,
+        conductance: np.ndarray,
+        reaction: np.ndarray,
+        residual: np.ndarray,
+        drift: np.ndarray | None = None,
+    ) -> np.ndarray:
         """delta, shape (cells,), from K, c (not 0), G and u."""
         self.K.setValue(conductance)
         self.c.setValue(reaction)

@@ -1,6 +1,6 @@
 """Everything known of a design in one dataset, from which the sheet and the CSV are made."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import xarray as xr
@@ -129,7 +129,7 @@ def answers(data: xr.Dataset) -> list[str]:
     return [name for name in data.data_vars if str(name).startswith("range_")]
 
 
-def csv_rows(data: xr.Dataset):
+def csv_rows(data: xr.Dataset) -> Iterator[tuple[str, ...]]:
     """Rows of key, meaning, value, unit, numerical uncertainty, standard error of the measured gel,
     source, one a number, light or range end; what to beware of in a measured gel comes first."""
     if "gel_warnings" in data.attrs:

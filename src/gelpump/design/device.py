@@ -8,11 +8,18 @@ L the heated length, t_pore = mu_l L^2/(k Pi_00) the unit of tau (eqn:nondimensi
     z_C = 2 erfcinv(1/2) sqrt(kappa t)                                      (eqn:temp_field_sol)
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from gelpump.design import units
 from gelpump.design.description import Design
 from gelpump.design.result import Result
+
+if TYPE_CHECKING:
+    from gelpump.tube.tubes import Tubes
 
 QUADRATURE = 1e-10  # relative error of t_99, as tested
 
@@ -31,13 +38,13 @@ def scales(design: Design) -> dict:
     return {"time": time, "along": R_dry, "across": R_dry}
 
 
-def diffusivity(design: Design):
+def diffusivity(design: Design) -> Any:
     """k Pi_00/mu_l."""
     Pi_00 = units.quantity(design.material.Pi_00, "Pa")
     return (design.given["permeability"] * Pi_00 / design.given["viscosity"]).to("m^2/s")
 
 
-def tubes(design: Design, eps: float | None = None):
+def tubes(design: Design, eps: float | None = None) -> Tubes:
     """The tube as `gelpump.tube` takes it."""
     from gelpump.tube.tubes import Tubes
 
@@ -47,7 +54,7 @@ def tubes(design: Design, eps: float | None = None):
     return Tubes(ell, own if eps is None else eps, **design.material.numbers)
 
 
-def response_time(design: Design, **changed) -> float:
+def response_time(design: Design, **changed: float) -> float:
     """t_99 of a uniformly heated tube in seconds; ``changed`` replaces given SI magnitudes."""
     from gelpump.tube.deswelling import response_time
 

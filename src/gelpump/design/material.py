@@ -17,7 +17,10 @@ in mu_s, which the tube takes as constant); in between D is that of the gel only
 stays swollen.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import Any
 
 BOLTZMANN = 1.380649e-23  # J/K
 
@@ -62,7 +65,9 @@ class Material:
         return {"M": self.M, "Pi_ratio": self.Pi_ratio, "Phi_inf": self.Phi_inf}
 
 
-def from_moduli(name, Pi_00, Pi_hot, mu_s, phi_00, phi_hot) -> Material:
+def from_moduli(
+    name: str, Pi_00: float, Pi_hot: float, mu_s: float, phi_00: float, phi_hot: float
+) -> Material:
     """The gel of eqn:piecewise_osmotic_pressure with these moduli (Pa) and polymer fractions."""
     from gelpump.materials import PiecewiseLinearGel
 
@@ -70,7 +75,7 @@ def from_moduli(name, Pi_00, Pi_hot, mu_s, phi_00, phi_hot) -> Material:
     return from_ratios(gel, Pi_00, phi_00)
 
 
-def from_ratios(gel, Pi_00, phi_00=None) -> Material:
+def from_ratios(gel: Any, Pi_00: float, phi_00: float | None = None) -> Material:
     """A piecewise-linear gel whose pressures are in units of ``Pi_00``."""
     text = "as given (eqn:piecewise_osmotic_pressure)"
     return Material(
@@ -78,7 +83,7 @@ def from_ratios(gel, Pi_00, phi_00=None) -> Material:
     )  # fmt: skip
 
 
-def from_energy(gel, T_cold, T_hot, molecule_volume) -> Material:
+def from_energy(gel: Any, T_cold: float, T_hot: float, molecule_volume: float) -> Material:
     """An energy-based gel heated from ``T_cold`` to ``T_hot`` (K).
 
     ValueError, from the gel, for a temperature outside its range or without a stable state.

@@ -1,6 +1,9 @@
 """What is said of a design: numbers with unit, uncertainty and source, and traffic lights."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import Any
 
 from gelpump.design import units
 
@@ -18,7 +21,7 @@ class Result:
     uncertainty: float | None = None
 
     @property
-    def quantity(self):
+    def quantity(self) -> Any:
         """The number as pint knows it."""
         return units.quantity(self.value, self.unit)
 

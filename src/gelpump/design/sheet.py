@@ -1,10 +1,15 @@
 """What the sheet of a design says, as rows of text, and the sheet in HTML."""
 
+from __future__ import annotations
+
 from importlib.resources import files
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from gelpump.design import dataset, units
 from gelpump.design.result import LIGHTS
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MARKS = {"green": "●", "amber": "▲", "red": "■"}  # told apart without colours
 
@@ -32,12 +37,12 @@ def said(value: float, unit: str, digits: int = 4) -> str:
     return f"{units.told(number, digits)} {chosen}".strip()
 
 
-def subtitle(data) -> str:
+def subtitle(data: xr.Dataset) -> str:
     """Which gel, and where its numbers come from."""
     return data.attrs["material"]
 
 
-def number_rows(data) -> list[tuple[str, str, str, str]]:
+def number_rows(data: xr.Dataset) -> list[tuple[str, str, str, str]]:
     """Meaning, value, uncertainty and source of each number."""
     rows = []
     for key in dataset.numbers(data):
@@ -53,7 +58,7 @@ def number_rows(data) -> list[tuple[str, str, str, str]]:
     return rows
 
 
-def notes(data) -> list[str]:
+def notes(data: xr.Dataset) -> list[str]:
     """What has to be said beside the numbers."""
     keys = ("gel_warnings", "lumen_note", "gel_note")
     found = [data.attrs[key] for key in keys if key in data.attrs]
@@ -67,7 +72,7 @@ def notes(data) -> list[str]:
     return found
 
 
-def light_rows(data) -> list[LightRow]:
+def light_rows(data: xr.Dataset) -> list[LightRow]:
     """Each light with its reason."""
     rows = []
     for key in dataset.lights(data):
@@ -78,12 +83,12 @@ def light_rows(data) -> list[LightRow]:
     return rows
 
 
-def question(data) -> str:
+def question(data: xr.Dataset) -> str:
     """What was wanted."""
     return f"What responds within {said(float(data.wanted_response_time), 's')}?"
 
 
-def answer_rows(data) -> list[tuple[str, str, str]]:
+def answer_rows(data: xr.Dataset) -> list[tuple[str, str, str]]:
     """Parameter, the range with no light red and what sets it, the range with all green."""
     rows = []
     for key in dataset.answers(data):
@@ -110,7 +115,7 @@ def _span(low, high, unit):
     return f"{ends[0]} {chosen[0]} to {ends[1]} {chosen[1]}"
 
 
-def html(data, svg: str) -> str:
+def html(data: xr.Dataset, svg: str) -> str:
     """The sheet as a page that needs no other file."""
     import jinja2
 

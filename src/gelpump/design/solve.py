@@ -10,7 +10,10 @@ Each is solved three times, with half and twice the cells and four times larger 
 tolerances in time, for the uncertainties (`gelpump.uncertainty`).
 """
 
-from collections.abc import Mapping
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -21,6 +24,9 @@ from gelpump.design.device import lewis_number, scales, tubes
 from gelpump.design.result import Result
 from gelpump.uncertainty import convergence_index
 
+if TYPE_CHECKING:
+    from gelpump.tube.wall_flow import Wall
+
 TIMES = 48
 FORMS = ("printed", "continuous")
 TOLERANCE_FACTOR = 4.0
@@ -28,7 +34,7 @@ BEAD_CHANGE = 0.99
 FURTHER = 64.0  # times the first guess of a bead's response, beyond which it is given up
 
 
-def variable(dims, values, unit, long_name):
+def variable(dims: Any, values: Any, unit: str, long_name: str) -> tuple[Any, Any, dict[str, str]]:
     """A variable in SI units as xarray takes it."""
     return dims, values, {"units": unit, "long_name": long_name}
 
@@ -38,7 +44,7 @@ def solve(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Result]]:
     return solve_tube(design, numerics) if design.kind == "tube" else solve_bead(design, numerics)
 
 
-def levels(numerics: Mapping):
+def levels(numerics: Mapping) -> Iterator[tuple[list[int], float]]:
     """Coarser, given and finer cells with their tolerances; cells are a number or two."""
     for finer in (0.5, 1.0, 2.0):
         cells = [int(count * finer) for count in np.atleast_1d(numerics["cells"])]
@@ -71,7 +77,7 @@ def solve_tube(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Resu
     return runs[1].assign_attrs(lumen_note=lumen_note(runs[1])), found
 
 
-def far_parts(wall) -> dict[str, tuple[float, float]]:
+def far_parts(wall: Wall) -> dict[str, tuple[float, float]]:
     """V far ahead, at the last time: what the wall sheds into the lumen behind the front, and what
     its source does ahead of it, in units of `gelpump.tube.lumen`; both forms, without the tube's
     own motion, which only the continuous one has."""

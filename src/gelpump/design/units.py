@@ -4,9 +4,12 @@ Text is a number and a unit, "150 um" or "1e-15 m^2". Pint would also evaluate a
 number is a plain one and an exponent a single digit, so that no text can keep it busy.
 """
 
+from __future__ import annotations
+
 import math
 import re
 from functools import cache
+from typing import Any
 
 NUMBER = r"[+-]?(?:\d{1,40}(?:\.\d{0,40})?|\.\d{1,40})(?:[eE][+-]?\d{1,3})?"
 UNIT = r"[A-Za-zµμ°%][A-Za-zµμ°%_ ]{0,30}(?:\^-?\d|\*\*-?\d|[²³])?"
@@ -25,14 +28,14 @@ SHOWN = {
 
 
 @cache
-def registry():
+def registry() -> Any:
     """Pint's registry; offset units such as degC are turned into kelvin."""
     import pint
 
     return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
 
 
-def parsed(text: str, unit: str):
+def parsed(text: str, unit: str) -> Any:
     """The quantity that ``text`` says, in ``unit``.
 
     ValueError, saying what is wrong, if it is no number with a unit or of another dimension.
@@ -71,12 +74,12 @@ def is_offset(text: str) -> bool:
     return not registry().Quantity(1.0, unit)._is_multiplicative
 
 
-def quantity(value: float, unit: str):
+def quantity(value: float, unit: str) -> Any:
     """A pint quantity."""
     return registry().Quantity(value, unit)
 
 
-def si(value, unit: str) -> float:
+def si(value: Any, unit: str) -> float:
     """The magnitude of a pint quantity in ``unit``; pint's DimensionalityError if it is another."""
     return float(value.to(unit).magnitude)
 

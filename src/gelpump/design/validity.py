@@ -4,6 +4,10 @@ The paper states what must be small or large and gives examples, not limits; the
 Green is where the paper works itself (eps = 0.1, Le = 10), red where a correction is of order one.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from gelpump.design import units
@@ -11,6 +15,11 @@ from gelpump.design.description import Design
 from gelpump.design.device import diffusivity, lewis_number
 from gelpump.design.result import Criterion, Light
 from gelpump.design.units import told
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from gelpump.materials.measured import Fit
 
 SLENDER = Criterion("slenderness", "the tube is slender", "ε²", 0.01, 0.1, "section 3.3")
 LEWIS = Criterion("lewis", "heat is faster than water in the gel", "Le", 10.0, 2.0,
@@ -94,7 +103,7 @@ def _plausible(design: Design) -> Light:
     return Light(PLAUSIBLE, found[0][0] if found else 1.0, reason)
 
 
-def fitted(fit) -> Light:
+def fitted(fit: Fit) -> Light:
     """How well a measured gel's curve goes through its points (`gelpump.materials.measured`)."""
     chi2 = fit.reduced_chi2
     return Light(FIT, chi2, f"χ² per degree of freedom is {told(chi2)}")
@@ -202,7 +211,7 @@ def _gel_lights(design: Design) -> list[Light]:
     return found
 
 
-def after_solving(design: Design, data) -> list[Light]:
+def after_solving(design: Design, data: xr.Dataset) -> list[Light]:
     """The lights of a solved tube, at the time when the front has travelled the heated length."""
     if design.kind == "bead":
         return []

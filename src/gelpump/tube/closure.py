@@ -43,9 +43,17 @@ Phi_1 is the mean over the section, to the accuracy of (R^2, ln R, 1): kappa is 
     s x^3 + 4 M x = s Phi_0 + 4 M Phi_1^{1/3} .
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import NDArray
 
 from gelpump.tube.wall_flow import mean_source_coefficient, source_coefficient
+
+if TYPE_CHECKING:
+    from gelpump.tube.tubes import Tubes
 
 
 class Printed:
@@ -54,27 +62,29 @@ class Printed:
     name = "printed"
     conserves_water = False
 
-    def wall_length(self, tubes):
+    def wall_length(self, tubes: Tubes) -> NDArray:
         """w of each tube, in units of L."""
         return tubes.wall_length
 
-    def content(self, stretch):
+    def content(self, stretch: NDArray) -> NDArray:
         """What a slice keeps unless it flows or is a source: lambda."""
         return stretch
 
-    def content_slope(self, stretch):
+    def content_slope(self, stretch: NDArray) -> NDArray:
         """d content/d lambda."""
         return 1.0
 
-    def potential(self, stretch, s, M):
+    def potential(self, stretch: NDArray, s: NDArray, M: NDArray) -> NDArray:
         """k with k_X the flux of the content."""
         return -s / 4 * stretch**-4.0 - 2 * M / 3 * stretch**-2.0
 
-    def conductivity(self, stretch, s, M):
+    def conductivity(self, stretch: NDArray, s: NDArray, M: NDArray) -> NDArray:
         """dk/d lambda."""
         return s * stretch**-5.0 + 4 * M / 3 * stretch**-3.0
 
-    def source(self, stretch, s, Phi_0, M):
+    def source(
+        self, stretch: NDArray, s: NDArray, Phi_0: NDArray, M: NDArray
+    ) -> tuple[NDArray, NDArray]:
         """w^2 times the loss of content through the edges, and its derivative in lambda."""
         resistance = s / stretch + 4 * M / 3 * stretch
         drive = Phi_0 - stretch**-3.0
@@ -88,31 +98,35 @@ class Conservative(Printed):
     name = "conservative"
     conserves_water = True
 
-    def wall_length(self, tubes):
+    def wall_length(self, tubes: Tubes) -> NDArray:
         """w of each tube, in units of L."""
         return tubes.eps * (1 - tubes.ell) / np.sqrt(source_coefficient(tubes.ell))
 
-    def content(self, stretch):
+    def content(self, stretch: NDArray) -> NDArray:
         """lambda^3."""
         return stretch**3
 
-    def content_slope(self, stretch):
+    def content_slope(self, stretch: NDArray) -> NDArray:
         """3 lambda^2."""
         return 3 * stretch**2
 
-    def potential(self, stretch, s, M):
+    def potential(self, stretch: NDArray, s: NDArray, M: NDArray) -> NDArray:
         """k with k_X = 3 lambda^2 K lambda_X."""
         return -1.5 * s / stretch**2 + 4 * M * np.log(stretch)
 
-    def conductivity(self, stretch, s, M):
+    def conductivity(self, stretch: NDArray, s: NDArray, M: NDArray) -> NDArray:
         """3 lambda^2 K."""
         return 3 * s / stretch**3 + 4 * M / stretch
 
-    def surface(self, stretch, s, Phi_0, M):
+    def surface(
+        self, stretch: NDArray, s: NDArray, Phi_0: NDArray, M: NDArray
+    ) -> tuple[NDArray, NDArray | float]:
         """Phi_s, and its derivative in lambda."""
         return Phi_0, 0.0
 
-    def source(self, stretch, s, Phi_0, M):
+    def source(
+        self, stretch: NDArray, s: NDArray, Phi_0: NDArray, M: NDArray
+    ) -> tuple[NDArray, NDArray]:
         """3 lambda^2 w^2 S = lambda^6 w^2 F, and its derivative in lambda."""
         resistance = s * stretch + 4 * M / 3 * stretch**3
         Phi_s, Phi_s_slope = self.surface(stretch, s, Phi_0, M)
@@ -126,11 +140,13 @@ class Balanced(Conservative):
 
     name = "balanced"
 
-    def wall_length(self, tubes):
+    def wall_length(self, tubes: Tubes) -> NDArray:
         """w of each tube, in units of L."""
         return tubes.eps * (1 - tubes.ell) / np.sqrt(mean_source_coefficient(tubes.ell))
 
-    def surface(self, stretch, s, Phi_0, M):
+    def surface(
+        self, stretch: NDArray, s: NDArray, Phi_0: NDArray, M: NDArray
+    ) -> tuple[NDArray, NDArray | float]:
         """Phi_s from s x^3 + 4 M x = s Phi_0 + 4 M/lambda by Newton's method from above."""
         x = np.maximum(Phi_0 ** (1 / 3), 1 / stretch)  # convex and rising: no step goes below
         for _ in range(60):

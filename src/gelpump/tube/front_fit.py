@@ -1,9 +1,12 @@
 """Dataset of the drying front: its sharpness A, the power law, and how far the model holds."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
@@ -20,7 +23,7 @@ from gelpump.tube.wall_flow import PRINTED_SOURCE_COEFFICIENT, source_coefficien
 SHARPNESS = "in units of 1/L"
 
 
-def front_fit(pulse, refinement, settings: Mapping) -> xr.Dataset:
+def front_fit(pulse: xr.Dataset, refinement: xr.Dataset, settings: Mapping) -> xr.Dataset:
     """Fits of all tubes at all times; A, the misfit and the power law at the time of figure 9."""
     ell, tau = pulse.ell.values, pulse.tau.values
     now = int(np.abs(tau - settings["tau"]).argmin())
@@ -122,7 +125,7 @@ def front_fit(pulse, refinement, settings: Mapping) -> xr.Dataset:
     return dataset
 
 
-def relative_error(refinement, pulse):
+def relative_error(refinement: xr.Dataset, pulse: xr.Dataset) -> NDArray:
     """That of A, shape (ell, tau): the largest of the refined times, interpolated in ln(1-ell)."""
     refined = np.log(1 - refinement.ell.values)
     relative = (refinement.A_uncertainty / refinement.A.isel(level=0)).max("tau").values
@@ -131,7 +134,7 @@ def relative_error(refinement, pulse):
     return here[:, np.newaxis]
 
 
-def consistent_sharpness(ell, tau, A, now):
+def consistent_sharpness(ell: NDArray, tau: NDArray, A: NDArray, now: float) -> NDArray:
     """A at tau = now, were F's coefficient kappa instead of 16, without another solution.
 
     Z_C ~ sqrt(tau), so Phi_1 is a function of Z/w and tau/w^2 only. A coefficient kappa makes w

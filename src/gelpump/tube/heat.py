@@ -62,6 +62,8 @@ class StepHeating:
         return 2 * erfc(np.asarray(Z) / (2 * np.sqrt(self.Le * np.asarray(tau, float)))) - 1
 
 
-def lewis_number(thermal_diffusivity, compositional_diffusivity):
+def lewis_number(
+    thermal_diffusivity: float | NDArray, compositional_diffusivity: float | NDArray
+) -> NDArray:
     """Le = kappa / D, equally the poroelastic time over the thermal time of one length."""
     return thermal_diffusivity / compositional_diffusivity

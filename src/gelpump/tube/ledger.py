@@ -17,9 +17,16 @@ not. The rates are entered with the formula of the time steps (`gelpump.bdf`), s
 holds in each step holds ever after, to rounding.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from gelpump.bdf import Step, derivative_weights, interpolation_weights
+
+if TYPE_CHECKING:
+    from gelpump.tube.moving_mesh import Family
 
 SIDES = ("behind", "ahead")
 AMOUNT = "in units of L and of the section pi (1-ell^2) a_1^2 of the swollen wall"
@@ -37,12 +44,12 @@ ENTRIES = {
 class Length:
     """What the printed equation conserves: the length that the source has taken is missing."""
 
-    def __init__(self, family, order: int):
+    def __init__(self, family: Family, order: int):
         self.family, self.order = family, order
         self._before = self._now = np.zeros(family.tubes)
         self._rates = [self._now]  # of losing length in t = sqrt(tau), in units of w; newest first
 
-    def enter(self, step: Step):
+    def enter(self, step: Step) -> None:
         """Enter a step that `gelpump.bdf.integrate` has accepted."""
         family, (stretch, _, X) = self.family, self.family.unpack(step.solution)
         rate = 2 * step.time / family.w**2 * family.source(stretch)[0] * np.diff(X)
@@ -71,13 +78,13 @@ class Length:
 class Ledger:
     """The books of a `gelpump.tube.moving_mesh.Family`, step by step."""
 
-    def __init__(self, family, order: int):
+    def __init__(self, family: Family, order: int):
         self.family = family
         self.worst = 0.0  # most that a step leaves unaccounted for on a side, over Z_C
         # newest first: source behind and ahead, axial, swept, printed
         self._entries = [np.zeros((5, family.tubes))]
 
-    def enter(self, step: Step):
+    def enter(self, step: Step) -> None:
         """Enter a step that `gelpump.bdf.integrate` has accepted."""
         weights = derivative_weights(step.times)
         rates = self._rates(step, weights)

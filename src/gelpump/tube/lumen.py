@@ -43,33 +43,40 @@ dPhi_1/dZ = -2A (Phi_inf - Phi_1)(Phi_1 - 1)/(Phi_inf - 1), no tail and no small
     ahead:   less (Phi_inf - 1)/(2A) Integral_{Phi_1(Z)}^{Phi_1(Z_C)} Phi D/(Phi_inf - Phi) dPhi
 """
 
+from __future__ import annotations
+
 from functools import cache
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gelpump.tube.front import tanh_profile
 from gelpump.tube.wall_flow import Wall, lumen_share
+
+if TYPE_CHECKING:
+    from gelpump.materials import PiecewiseLinearGel
 
 NODES, FEWER_NODES = 40, 30  # of the quadrature; the fewer tell how far it may be off
 HOT, COLD = 1.0, -1.0  # temperatures theta of either side
 
 
-def velocity_printed(wall: Wall):
+def velocity_printed(wall: Wall) -> NDArray:
     """V of eqn:lumen on the faces."""
     return wall.integral(wall.F * np.cbrt(wall.Phi1)) / 2
 
 
-def velocity_matched(wall: Wall):
+def velocity_matched(wall: Wall) -> NDArray:
     """V with C from U_g at the inner edge, on the faces."""
     return (1 - wall.ell) / wall.ell * wall.integral(wall.F / wall.Phi1) / 2
 
 
-def velocity_continuous(wall: Wall):
+def velocity_continuous(wall: Wall) -> NDArray:
     """V by conservation of water, on the faces."""
     return _deforming(wall) + wall.axial_velocity_face
 
 
-def velocity_continuous_level(wall: Wall):
+def velocity_continuous_level(wall: Wall) -> NDArray:
     """The same without axial flow through the sloping edge."""
     along = wall.Phi1 ** (-2 / 3) * np.diff(wall.axial_velocity_face) / wall.cell_length
     return _deforming(wall) + wall.Phi1_face ** (2 / 3) * wall.integral(along)
@@ -95,28 +102,34 @@ MEANING = {
 }
 
 
-def radial_rate(wall: Wall, V):
+def radial_rate(wall: Wall, V: NDArray) -> NDArray:
     """C = -V_Z/2 in the cells, so that U = C R."""
     return -np.diff(V) / wall.cell_length / 2
 
 
-def above_far(V, hot):
+def above_far(V: NDArray, hot: NDArray) -> NDArray:
     """What the pulse adds, in the cells: V behind the front, V less that far ahead before it."""
     middle = (V[..., 1:] + V[..., :-1]) / 2
     return np.where(hot, middle, middle - V[..., -1:])
 
 
-def pulse_flux(wall: Wall, hot):
+def pulse_flux(wall: Wall, hot: NDArray) -> NDArray:
     """What the printed pulse carries: V of eqn:lumen over it, less V far ahead before the front."""
     return wall.integral(above_far(velocity_printed(wall), hot))[..., -1]
 
 
-def prefactor(eps, one_minus_ell):
+def prefactor(eps: float | NDArray, one_minus_ell: float | NDArray) -> NDArray:
     """What eqn:lumen has before its integral, and figure 12 has not."""
     return 8 / (eps * one_minus_ell) ** 2
 
 
-def velocity_tanh(gel, A, Z, Z_C, nodes=NODES):
+def velocity_tanh(
+    gel: PiecewiseLinearGel,
+    A: float | NDArray,
+    Z: NDArray,
+    Z_C: float | NDArray,
+    nodes: int = NODES,
+) -> NDArray:
     """Integral_0^Z Phi_1 D (Phi_0 - Phi_1) dZ of the tanh form; arguments are broadcast."""
     A, Z, Z_C = np.broadcast_arrays(*(np.asarray(value, float) for value in (A, Z, Z_C)))
     start = tanh_profile(-A * Z_C, gel.Phi_inf)

@@ -1,7 +1,10 @@
 """Dataset of the pulse of water in the lumen (figure 12): from the tanh form, and as solved."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -12,10 +15,19 @@ from gelpump.tube.front import PowerLaw
 from gelpump.tube.wall_flow import Wall
 from gelpump.uncertainty import quadrature_error
 
+if TYPE_CHECKING:
+    from gelpump.materials import PiecewiseLinearGel
+
 FAR = 1e9  # beyond any pulse
 
 
-def lumen_pulse(gel, tube: Mapping, settings: Mapping, pulse, fit) -> xr.Dataset:
+def lumen_pulse(
+    gel: PiecewiseLinearGel,
+    tube: Mapping,
+    settings: Mapping,
+    pulse: xr.Dataset,
+    fit: xr.Dataset,
+) -> xr.Dataset:
     """V of the tanh form without its prefactor (`plotted`) and with it, and of the solved tubes.
 
     The prefactor needs an ell: it is that of the tube which the fitted power law gives the A.

@@ -28,11 +28,20 @@ the Jacobian is exact, until the sum over the cells, and with it the water, is c
 rounding; what crosses front, edges and sections is kept in books (`gelpump.tube.ledger`).
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import NDArray
 
 from gelpump.bdf import NotConverged, Step
 from gelpump.finite_volume import NewtonSweep
 from gelpump.tube.closure import Printed
+
+if TYPE_CHECKING:
+    from gelpump.tube.heat import Heat
+    from gelpump.tube.tubes import Tubes
 
 GRADING_BEHIND = 0.5  # in units of w: where the cells behind the front begin to grow
 GRADING_AHEAD = 4.0  # last cell ahead is about cosh(4) = 27 times the first
@@ -48,7 +57,15 @@ class Family:
     Public for the studies of known solutions, which give it sources and starts of their own.
     """
 
-    def __init__(self, tubes, heat, cells, reach, newton_tolerance, closure=PRINTED):
+    def __init__(
+        self,
+        tubes: Tubes,
+        heat: Heat,
+        cells: tuple[int, int],
+        reach: float,
+        newton_tolerance: float,
+        closure: Printed = PRINTED,
+    ):
         self.behind, ahead = cells
         self.cells = self.behind + ahead
         self.closure = closure
@@ -69,33 +86,33 @@ class Family:
     # The state of bdf: lambda (for its prediction and its error), and the two quantities whose
     # rates of change enter, the content, lambda V or lambda^3 V, and the faces X_f.
 
-    def initial(self):
+    def initial(self) -> NDArray:
         """The state at t = 0, undisturbed."""
         shape = (self.tubes, self.cells)
         return self.pack(np.ones(shape), np.zeros((self.tubes, self.cells + 1)))
 
-    def pack(self, stretch, X):
+    def pack(self, stretch: NDArray, X: NDArray) -> NDArray:
         """The state: lambda, the content of the cells and X_f in one row."""
         content = self.closure.content(stretch) * np.diff(X)
         return np.concatenate([a.ravel() for a in (stretch, content, X)])
 
-    def unpack(self, state):
+    def unpack(self, state: NDArray) -> list[NDArray]:
         """Lambda, the content and X_f of a state, each (tube, ...)."""
         parts = np.split(state, [self.tubes * self.cells, 2 * self.tubes * self.cells])
         return [part.reshape(self.tubes, -1) for part in parts]
 
-    def front(self, t):
+    def front(self, t: float) -> NDArray:
         """Z_C in units of w."""
         return self.heat.front(t * t) / self.w
 
-    def faces(self, t, X_C):
+    def faces(self, t: float, X_C: NDArray) -> NDArray:
         """Graded to the front; both layers are as thin as Z_C allows while that is below w."""
         X_behind = X_C - GRADING_BEHIND * np.sinh(np.arcsinh(X_C / GRADING_BEHIND) * self._back)
         X_behind[:, 0] = 0.0
         layer = self.front(t) / np.sqrt(4 + self.front(t) ** 2)
         return np.hstack([X_behind, X_C + self.reach * layer * self._fore])
 
-    def source(self, stretch):
+    def source(self, stretch: NDArray) -> tuple[NDArray, NDArray]:
         """w^2 times what the content loses through the edges (printed: S), and its derivative."""
         return self.closure.source(stretch, self.s, self.Phi_0, self.M)
 
@@ -105,7 +122,9 @@ class Family:
     def _K(self, stretch, s):
         return self.closure.conductivity(stretch, s, self.M)
 
-    def inner_faces(self, stretch, X):
+    def inner_faces(
+        self, stretch: NDArray, X: NDArray
+    ) -> tuple[NDArray, tuple[NDArray, NDArray], NDArray, tuple[NDArray, NDArray]]:
         """Flux of the content (printed: K lambda_X) and lambda at the faces within a tube, each
         with its two derivatives.
 
@@ -141,7 +160,9 @@ class Family:
         flux_right[:, c] = g[1] * G[0] / (G[0] + G[1])
         return flux, (flux_left, flux_right), face, (face_left, face_right)
 
-    def exchange(self, stretch, X, velocity, rate):
+    def exchange(
+        self, stretch: NDArray, X: NDArray, velocity: NDArray, rate: NDArray
+    ) -> tuple[NDArray, tuple[NDArray, NDArray], NDArray, tuple[NDArray, NDArray], NDArray]:
         """`inner_faces` with lambda as it is carried by the faces' velocity, and d content/d lambda
         there."""
         flux, flux_slope, face, face_slope = self.inner_faces(stretch, X)
@@ -149,7 +170,15 @@ class Family:
         self.limit(stretch, carried, rate, flux_slope, face, face_slope)
         return flux, flux_slope, face, face_slope, self.closure.content_slope(face)
 
-    def limit(self, stretch, velocity, rate, flux_slope, face, face_slope):
+    def limit(
+        self,
+        stretch: NDArray,
+        velocity: NDArray,
+        rate: NDArray,
+        flux_slope: NDArray,
+        face: NDArray,
+        face_slope: NDArray,
+    ) -> None:
         """Take no more of lambda from the downwind cell than diffusion brings back.
 
         At the very start, and if heat is much faster than the gel, coarse cells are swept over
@@ -162,7 +191,7 @@ class Family:
         right += excess
         face += excess * np.diff(stretch)
 
-    def advance(self, t, guess, alpha, history):
+    def advance(self, t: float, guess: NDArray, alpha: float, history: NDArray) -> NDArray:
         """One implicit step in t = sqrt(tau); d/dt is alpha times the new value plus history."""
         stretch, _, X = self.unpack(guess)
         _, content_history, X_history = self.unpack(history)
@@ -215,12 +244,12 @@ class Family:
             previous = change
         raise NotConverged
 
-    def conserves(self, residual, turnover):
+    def conserves(self, residual: NDArray, turnover: NDArray) -> bool:
         """Whether the sums over the cells behind and ahead of the front vanish to rounding."""
         sums = [residual[:, side].sum(axis=1) for side in (self.hot, ~self.hot)]
         return (np.abs(sums) <= CONSERVED * turnover.sum(axis=1)).all()
 
-    def error_norm(self, state, difference):
+    def error_norm(self, state: NDArray, difference: NDArray) -> float:
         """As a change of Phi_1; a shift of X_C by w changes it by a tenth at fixed Z."""
         stretch, _, _ = self.unpack(state)
         d_stretch, _, d_X = self.unpack(difference)
@@ -228,7 +257,7 @@ class Family:
             np.abs(3 * d_stretch / stretch**4).max(), 0.1 * np.abs(d_X[:, self.behind]).max()
         )
 
-    def profile(self, t, step: Step):
+    def profile(self, t: float, step: Step) -> dict[str, NDArray]:
         """What the dataset holds of one time, but for the account of what was lost."""
         stretch, content, X = self.unpack(step.at(t))
         if self.closure.conserves_water:
@@ -250,7 +279,9 @@ class Family:
             "departed_length": self.departed_length(Z, Phi, front, Phi_front),
         }
 
-    def departed_length(self, Z, Phi, front, Phi_front):
+    def departed_length(
+        self, Z: NDArray, Phi: NDArray, front: NDArray, Phi_front: NDArray
+    ) -> NDArray:
         """Length where Phi differs from Phi_0, which jumps at the front, by more than DEPARTED.
 
         Phi is linear between the middles of cells, and from them to the front.

@@ -33,19 +33,26 @@ it is [(1-ell^2)/ln(1/ell) - 2 ell^2] / [2 (1-ell^2)], whatever the amplitude.
 If kappa replaces 16, only w = eps (1-ell)/4 changes, to w sqrt(16/kappa).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 PRINTED_SOURCE_COEFFICIENT = 16.0
 
 
-def source_coefficient(ell):
+def source_coefficient(ell: float | NDArray) -> NDArray:
     """kappa, the consistent counterpart of the 16 in F."""
     return 4 * (1 - ell) ** 2 * _alpha(ell)
 
 
-def mean_source_coefficient(ell):
+def mean_source_coefficient(ell: float | NDArray) -> NDArray:
     """The counterpart of kappa for the mean over the section in place of the midline: 12, thin.
 
     On both edges Phi_2 is `drive` above its mean. With (R^2, ln R, 1) and <s^2> = (1+ell^2)/2,
@@ -56,7 +63,7 @@ def mean_source_coefficient(ell):
     return 4 * (1 - ell) ** 2 / (square - log)
 
 
-def lumen_share(ell):
+def lumen_share(ell: float | NDArray) -> NDArray:
     """Part of the water shed by the radial source that enters the lumen; the rest goes outwards."""
     return (1 / np.log(1 / ell) - 2 * ell**2 / (1 - ell**2)) / 2
 
@@ -66,12 +73,12 @@ def _alpha(ell):
     return 1 / (1 - m**2 - (1 - ell**2) * np.log(1 / m) / np.log(1 / ell))
 
 
-def Phi2_printed(s, drive, ell):
+def Phi2_printed(s: NDArray, drive: NDArray, ell: float | NDArray) -> NDArray:
     """Phi_2 of eqn:phi2."""
     return 4 * drive * (s - (1 + ell) / 2) ** 2 / (1 - ell) ** 2
 
 
-def Phi2_consistent(s, drive, ell):
+def Phi2_consistent(s: NDArray, drive: NDArray, ell: float | NDArray) -> NDArray:
     """Phi_2 of the three conditions above eqn:phi2."""
     alpha = _alpha(ell)
     gamma = -alpha * (1 - ell**2) / np.log(1 / ell)
@@ -106,7 +113,7 @@ class Wall:
     """Number of cells behind the front, and so the front's face."""
 
     @classmethod
-    def of(cls, pulse):
+    def of(cls, pulse: xr.Dataset) -> Wall:
         """The wall of `pulse`, with the dimensions (ell, tau) or none of them, then the cells."""
         column = {name: pulse[name].values[..., np.newaxis] for name in ("ell", "eps", "Phi_inf")}
         if "tau" in pulse.dims:
@@ -129,47 +136,47 @@ class Wall:
         )
 
     @property
-    def cell_length(self):
+    def cell_length(self) -> NDArray:
         """Axial length of the cells."""
         return np.diff(self.Z_face)
 
-    def integral(self, density):
+    def integral(self, density: NDArray) -> NDArray:
         """Integral over Z of a density in the cells, from 0 to each face."""
         running = np.cumsum(density * self.cell_length, axis=-1)
         return np.concatenate([np.zeros_like(running[..., :1]), running], axis=-1)
 
     @property
-    def drive(self):
+    def drive(self) -> NDArray:
         """(Phi_0 - Phi_1)/eps^2, what Phi_2 is on the edges."""
         return (self.Phi_0 - self.Phi1) / self.eps**2
 
     @property
-    def axial_velocity(self):
+    def axial_velocity(self) -> NDArray:
         """V_g in the cells."""
         return (self.flux[..., 1:] + self.flux[..., :-1]) / 2 / self.Phi1
 
     @property
-    def axial_velocity_face(self):
+    def axial_velocity_face(self) -> NDArray:
         """V_g on the faces."""
         return self.flux / self.Phi1_face
 
     @property
-    def shrinkage(self):
+    def shrinkage(self) -> NDArray:
         """DPhi_1/Dtau of the material in the cells, F + Phi_1 dV_g/dZ."""
         return self.F + self.Phi1 * np.diff(self.axial_velocity_face) / self.cell_length
 
     @property
-    def polymer_velocity_face(self):
+    def polymer_velocity_face(self) -> NDArray:
         """Axial velocity of the polymer on the faces; the section Z = 0 does not move."""
         return -(self.integral(self.F / self.Phi1) + self.axial_velocity_face) / 3
 
     @property
-    def largest_axial_velocity(self):
+    def largest_axial_velocity(self) -> NDArray:
         """Largest |V_g| along the tube."""
         return np.abs(self.axial_velocity_face).max(axis=-1)
 
     @property
-    def largest_radial_velocity(self):
+    def largest_radial_velocity(self) -> NDArray:
         """Largest |U_g| of eqn:ug with eqn:phi2: at the outer edge, in a cell or on a side of the
         front, where it jumps and the nearest two cells are extrapolated to."""
         speed = np.abs(self.radial_velocity_printed(np.ones(1))[..., 0])
@@ -185,15 +192,15 @@ class Wall:
         return values[..., nearest] + share * (values[..., nearest] - values[..., next_one])
 
     @property
-    def radial_to_axial_velocity(self):
+    def radial_to_axial_velocity(self) -> NDArray:
         """The one over the other, in the same units."""
         return self.eps[..., 0] * self.largest_radial_velocity / self.largest_axial_velocity
 
-    def radial_velocity_printed(self, s):
+    def radial_velocity_printed(self, s: NDArray) -> NDArray:
         """U_g of eqn:ug with eqn:phi2 in the cells, at the swollen radius s, along a new axis."""
         return self._radial_velocity(_slope_printed, s)
 
-    def radial_velocity_consistent(self, s):
+    def radial_velocity_consistent(self, s: NDArray) -> NDArray:
         """U_g of eqn:ug with the Phi_2 of the three conditions."""
         return self._radial_velocity(_slope_consistent, s)
 

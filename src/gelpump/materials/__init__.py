@@ -13,7 +13,7 @@ from typing import Any, Protocol
 
 from numpy.typing import ArrayLike, NDArray
 
-from . import flory_rehner
+from . import blocks
 from .energy_based import EnergyBasedGel
 from .explicit import ExplicitGel
 from .flory_rehner import FloryRehnerGel
@@ -79,7 +79,7 @@ def from_config(name: str, block: Mapping[str, Any]) -> Gel:
     """
     model = block.get("model")
     if model == "flory-rehner":
-        return flory_rehner.from_block(name, block)
+        return blocks.from_block(name, block)
     if not isinstance(model, str) or model not in _MODELS:
         known = ", ".join([*_MODELS, "flory-rehner"])
         raise ValueError(f"{name}.model = {model!r}: must be one of {known}")

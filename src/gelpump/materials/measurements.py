@@ -1,16 +1,6 @@
 """Measured equilibria as people keep them: a table of any columns, read right or refused in words.
 
-What is measured becomes a polymer fraction,
-
-    polymer_fraction            phi
-    volume_ratio     V/V_ref    phi = phi_ref/(V/V_ref)
-    diameter_ratio   d/d_ref    phi = phi_ref/(d/d_ref)^3         (any length that swells alike)
-    diameter         d          the same, with d_ref
-    mass_ratio       m/m_dry    phi = 1/[1 + (m/m_dry - 1) rho_p/rho_s]
-    uptake  (m - m_dry)/m_dry   phi = 1/[1 + uptake rho_p/rho_s]
-
-with phi_ref the polymer fraction of the reference state (1: dry), rho_p and rho_s the densities of
-polymer and solvent. Nothing is guessed: separator, decimal sign and units are those that leave one
+Nothing is guessed: separator, decimal sign and units are those that leave one
 reading of the whole table, or are told; else the table is refused.
 """
 
@@ -28,10 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-LENGTHS = {"diameter"}
-QUANTITIES = (
-    "polymer_fraction", "volume_ratio", "diameter_ratio", "diameter", "mass_ratio", "uptake",
-)  # fmt: skip
+from .quantities import QUANTITIES, conversion, converter
+
 BRANCHES = ("heating", "cooling")
 KEYS = {"columns", "units", "reference", "branches", "separator", "decimal"}
 FEWEST, MOST = 6, 10_000
@@ -39,9 +27,6 @@ COLDEST, HOTTEST = 200.0, 500.0  # K: outside, the column is hardly in kelvin
 USUAL_ERROR = {"temperature_error": 0.1, "polymer_fraction_error": 0.01}  # second one relative
 NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d{1,3})?")
 THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+")
-BRACKETS = re.compile(r".*[\[(]([^\[\]()]*)[\])]")
-SLASH = re.compile(r".+/\s*([^/\[\]()]+)")
-NO_UNIT = {"", "-", "–", "1"}
 
 
 @dataclass(frozen=True)
@@ -123,7 +108,7 @@ class _Table:
             data = data[1:]
         comma = self._decimal_comma(data, where)
         self.quantity = next(role for role, _ in where if role in QUANTITIES)
-        converters = {role: self._unit(role, name, units_row.get(role, ""))
+        converters = {role: self._converter(role, name, units_row.get(role, ""))
                       for role, name in wanted.items() if role[0] != "branch"}  # fmt: skip
         return self._assembled(data, where, len(header), comma, converters)
 
@@ -240,61 +225,21 @@ class _Table:
             self.refuse(f"{commas[0]!r} may have a decimal comma or thousands: say decimal")
         return True
 
-    def _unit(self, key, heading, cell):
+    def _converter(self, key, heading, cell):
         """What turns a number of the column into K, m or 1."""
         role = self.quantity if key[0] == "error" else key[0]
-        ratio = role in QUANTITIES and role not in LENGTHS
-        told = [_text_of(match) for match in [BRACKETS.fullmatch(heading)] if match]
-        if not told and not ratio:
-            told = [_text_of(match) for match in [SLASH.fullmatch(heading)] if match]
-        name = f"{role}_error" if key[0] == "error" else role
-        units = self.how.get("units", {})
-        given = units.get(name)
-        told = [str(given)] if given is not None else [each for each in (*told, cell) if each]
-        if ratio:
-            return self._ratio_unit(name, told)
-        if not told and key[0] == "error" and role in units:
-            told = [str(units[role])]
-        if not told and heading == role and role.startswith("temperature"):
-            return lambda value: value  # kelvin, as these names have always been read
-        if not told:
-            self.refuse(f"{name}: its unit is told neither by the heading {heading!r} nor by a "
-                        f"row of units: say units: {{{name}: ...}}")  # fmt: skip
-        return self._converter(name, told, "m" if role in LENGTHS else "K",
-                               difference=role == "temperature_error")  # fmt: skip
-
-    def _ratio_unit(self, name, told):
-        kinds = {"%" if each in ("%", "percent") else "1" if each in NO_UNIT else each
-                 for each in told}  # fmt: skip
-        if len(kinds) > 1 or not kinds <= {"%", "1"}:
-            self.refuse(f"{name}: the unit is told as {sorted(told)}: must be 1 or %; say units")
-        return (lambda value: value / 100) if kinds == {"%"} else (lambda value: value)
-
-    def _converter(self, name, told, unit, difference):
-        from gelpump.design import units
-
-        registry = units.registry()
-        found = []
-        for text in told:
-            try:
-                parsed = registry.parse_units(text.replace("º", "°").strip())
-                if parsed.dimensionality != registry.parse_units(unit).dimensionality:
-                    raise ValueError
-            except Exception:  # pint raises many things at what it does not know
-                self.refuse(f"{name}: the unit {text!r} is none of {unit}'s kind; say units")
-            found.append(parsed)
-        if len(set(found)) > 1:
-            self.refuse(f"{name}: the unit is told as {told}: say units")
-        if difference:
-            size = registry.Quantity(1.0, found[0]) - registry.Quantity(0.0, found[0])
-            factor = float(size.to("delta_degC" if unit == "K" else unit).magnitude)
-            return lambda value: value * factor
-        return lambda value: float(registry.Quantity(value, found[0]).to(unit).magnitude)
+        try:
+            return converter(role, key[0] == "error", heading, cell, self.how.get("units", {}))
+        except ValueError as refusal:
+            self.refuse(str(refusal))
 
     def _assembled(self, data, where, width, comma, converters):
         branches = sorted({branch for role, branch in where if role in QUANTITIES})
         quantity = self.quantity
-        to_phi, slope = self._polymer_fraction(quantity)
+        try:
+            to_phi, slope = conversion(quantity, self.how.get("reference", {}))
+        except ValueError as refusal:
+            self.refuse(str(refusal))
         given = all(
             any(role == each for role, _ in where) for each in ("temperature_error", "error")
         )
@@ -370,51 +315,6 @@ class _Table:
             self.refuse(f"{name} = {cell[:40]!r}: must be {kind}", line)
         return value
 
-    def _polymer_fraction(self, quantity):
-        """phi of what was measured, and its slope."""
-        needed = {
-            "polymer_fraction": (),
-            "volume_ratio": ("polymer_fraction",),
-            "diameter_ratio": ("polymer_fraction",),
-            "diameter": ("polymer_fraction", "diameter"),
-            "mass_ratio": ("polymer_density", "solvent_density"),
-            "uptake": ("polymer_density", "solvent_density"),
-        }[quantity]
-        given = self.how.get("reference", {})
-        if set(given) != set(needed):
-            self.refuse(f"{quantity}: reference has {sorted(given)}: must have {list(needed)}")
-        reference = {key: self._reference(key, given[key]) for key in needed}
-        if quantity == "polymer_fraction":
-            return (lambda x: x), (lambda x: 1.0)
-        if quantity in ("mass_ratio", "uptake"):
-            density = reference["polymer_density"] / reference["solvent_density"]
-            dry = 1.0 if quantity == "mass_ratio" else 0.0
-            return (lambda x: 1 / (1 + (x - dry) * density) if x > dry else math.nan), (
-                lambda x: density / (1 + (x - dry) * density) ** 2
-            )
-        phi_ref, d_ref = reference["polymer_fraction"], reference.get("diameter", 1.0)
-        power = 1 if quantity == "volume_ratio" else 3
-        return (lambda x: phi_ref * (d_ref / x) ** power if x > 0 else math.nan), (
-            lambda x: power * phi_ref * (d_ref / x) ** power / x
-        )
-
-    def _reference(self, key, value):
-        if key == "polymer_fraction":
-            number = isinstance(value, int | float) and not isinstance(value, bool)
-            if not number or not 0 < value <= 1:
-                self.refuse(f"reference.{key} = {value!r}: must be greater than 0 and at most 1")
-            return float(value)
-        from gelpump.design import units
-
-        unit = "m" if key == "diameter" else "kg/m^3"
-        try:
-            found = units.parsed(value if isinstance(value, str) else "", unit).magnitude
-        except ValueError as problem:
-            self.refuse(f"reference.{key} = {value!r}: {problem}; must be in {unit} or the like")
-        if not found > 0:
-            self.refuse(f"reference.{key} = {value!r}: must be greater than 0")
-        return float(found)
-
 
 def _tidy(cell: str) -> str:
     return " ".join(cell.split())
@@ -422,7 +322,3 @@ def _tidy(cell: str) -> str:
 
 def _cell(row, i) -> str:
     return _tidy(row[i]) if i < len(row) else ""
-
-
-def _text_of(match) -> str:
-    return match[1].strip()

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from gelpump.materials import PiecewiseLinearGel
+from gelpump.bead import lens
+from gelpump.materials import PiecewiseLinearGel, from_config
 from gelpump.second_solvers import cross_check, lens_bead, tube
 
 TIMES = np.array([0.0, 1e-3, 0.01, 0.1])
@@ -32,6 +33,25 @@ def test_bead_stops_where_phases_separate(hht):
     course = lens_bead.solve(hht, 308.0, phi, np.array([0.0, 0.1, 1.0]), 80)
     assert course.stop == pytest.approx(0.14525, abs=2e-5)
     assert course.t.tolist() == [0.0, 0.1]
+
+
+@pytest.mark.parametrize(
+    ("elasticity", "ions"), [("affine", {}), ("phantom", {"charges_per_chain": 0.5, "salt": 2.0})]
+)
+def test_both_beads_of_a_gel_of_the_literature_agree(elasticity, ions):
+    """The library's formulae and those that are written again here, through two solvers."""
+    network = {"elasticity": elasticity, "reference_polymer_fraction": 0.2, "chain_length": 80.0}
+    chi = {"chi_1": {"A": -6.0, "Theta": 312.0}, "chi_2": 0.3, "chi_3": 0.1}
+    block = {"model": "flory-rehner", "chi": chi, "network": network}
+    gel = from_config(
+        "mine", block | {"temperature_range": [280.0, 330.0]} | ({"ions": ions} if ions else {})
+    )
+    phi = gel.equilibrium_polymer_fraction(308.0)
+    first = lens.solve(gel, 295.0, phi, TIMES, 160, tolerance=1e-6)
+    second = lens_bead.solve(gel, 295.0, phi, TIMES, 160)
+    np.testing.assert_allclose(first.radius.values[1:], second.radius[1:], rtol=5e-4)
+    swollen = second.radius[-1] / second.radius[0]
+    assert swollen > 1.02
 
 
 def test_tube_uncertainty_covers_its_error():

@@ -50,6 +50,11 @@ class Course(NamedTuple):
 
 def diffusivity(gel, T, phi):
     """Omega D of the LENS bead, arrays or floats."""
+    if not hasattr(gel, "A0"):
+        c_1, c_2, c_3 = literature_chi(gel, T)
+        mixing = phi**2 * (1 / (1 - phi) - 2 * c_1 - 3 * c_2 * phi - 4 * c_3 * phi**2)
+        ions = (gel.charge * phi) ** 2 / np.hypot(gel.charge * phi, 2 * gel.salt + 1e-300)
+        return gel.kappa * phi + phi ** (1 / 3) + gel.Omega * (mixing + ions)
     a, b = gel.A0 + gel.B0 * T, gel.A1 + gel.B1 * T
     mixing = phi**2 / (1 - phi) - 2 * phi**2 * (a - b) - 6 * phi**3 * b
     return phi + phi ** (1 / 3) + gel.Omega * mixing
@@ -57,9 +62,20 @@ def diffusivity(gel, T, phi):
 
 def surface_load(gel, T, phi):
     """Omega Pi + 4 phi^{1/3}, equal to 4/a at a stress-free surface; its slope is Omega D/phi."""
+    if not hasattr(gel, "A0"):
+        c_1, c_2, c_3 = literature_chi(gel, T)
+        mixing = -phi - math.log1p(-phi) - phi**2 * (c_1 + c_2 * phi + c_3 * phi**2)
+        ions = math.hypot(gel.charge * phi, 2 * gel.salt) - 2 * gel.salt
+        return gel.kappa * phi + 3 * phi ** (1 / 3) + gel.Omega * (mixing + ions)
     a, b = gel.A0 + gel.B0 * T, gel.A1 + gel.B1 * T
     mixing = -phi - math.log1p(-phi) - phi**2 * (a + (2 * phi - 1) * b)
     return phi + 3 * phi ** (1 / 3) + gel.Omega * mixing
+
+
+def literature_chi(gel, T):
+    """c_1, c_2, c_3 of a gel of `gelpump.materials.flory_rehner`."""
+    s = 1 / T if gel.inverse else T
+    return [p + q * s for p, q in zip(gel.constant, gel.slope, strict=True)]
 
 
 def stable_interval(gel, T, phi):

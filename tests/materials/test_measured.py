@@ -168,6 +168,15 @@ def made_by(form, anb):
     })  # fmt: skip
 
 
+def test_six_points_choose_no_form_that_goes_through_them_all(anb):
+    T = np.array([292.0, 296.0, 300.0, 308.0, 311.0, 315.0])
+    noise = 1 + 0.01 * np.random.default_rng(2).normal(size=6)
+    phi = [anb.equilibrium_polymer_fraction(t) for t in T] * noise
+    found = measured.choose("mine", measured.Points(T, phi, np.full(6, 0.1), 0.01 * phi, False), {})
+    assert len(found.names) == 4
+    assert any("6 points are too few for 5 parameters" in each for each in found.passed_over)
+
+
 def test_the_bootstrap_agrees_with_the_covariance(anb):
     points = synthetic(anb, 11)
     found = measured.fit("mine", points)

@@ -11,12 +11,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from .fitting import FORMS, NAMES, Fit, bootstrap, fit
+from .fitting import FORMS, NAMES, Fit, bootstrap, fit, names
 from .flory_rehner import LOGARITHM
 from .measurements import KEYS, Points, read
 
 __all__ = ["FORMS", "NAMES", "Fit", "Points", "bootstrap", "choose", "find", "fit", "measured",
            "read", "resolve"]  # fmt: skip
+
+
+SPARE = 2  # points beyond the parameters that a form needs to be chosen: fewer are gone through
 
 
 def choose(name: str, points: Points, block: Mapping[str, Any]) -> Fit:
@@ -45,6 +48,9 @@ def choose(name: str, points: Points, block: Mapping[str, Any]) -> Fit:
     fits, refusals = [], {}
     for form in FORMS if forms == "best" else [forms]:
         if form == "appendix-A" and (kind, phi_ref) != ("neo-Hookean", 1.0):
+            continue
+        if forms == "best" and len(points.T) - len(names(form)) < SPARE:
+            refusals[form] = f"{len(points.T)} points are too few for {len(names(form))} parameters"
             continue
         try:
             fits.append(fit(name, points, block.get("temperature_range"), form, (kind, phi_ref)))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gelpump.coordinates import merged
 from gelpump.uncertainty import convergence_index
 
 if TYPE_CHECKING:
@@ -28,16 +29,10 @@ def output_times(case: Mapping, count: int) -> np.ndarray:
     A third of them are spaced evenly in log t, to show the singular start; the others in sqrt(t).
     """
     end, early = case["end"], count // 3
-    return np.unique(
-        np.concatenate(
-            [
-                [0.0],
-                np.geomspace(1e-6 * end, end, early + 1)[:-1],
-                end * np.linspace(0.0, 1.0, count - early + 1)[1:] ** 2,
-                case["published_times"],
-                case["profile_times"],
-            ]
-        )
+    return merged(
+        [0.0, *case["published_times"], *case["profile_times"]],
+        end * np.linspace(0.0, 1.0, count - early + 1)[1:] ** 2,
+        np.geomspace(1e-6 * end, end, early + 1)[:-1],
     )
 
 

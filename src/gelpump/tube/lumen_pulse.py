@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
+from gelpump.coordinates import merged
 from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
 from gelpump.tube.front import PowerLaw
@@ -34,11 +35,11 @@ def lumen_pulse(
     Below A = prefactor of the law there is none (`one_minus_ell` > 1).
     """
     tau, sharp = np.array(settings["tau"]), np.geomspace(*settings["A"], settings["A_count"])
-    A = np.unique(np.append(sharp, settings["drawn_A"]))
+    A = merged(settings["drawn_A"], sharp)
     law = PowerLaw(*(float(fit[key]) for key in ("exponent", "exponent_uncertainty", "prefactor")))
     here = pulse.sel(tau=tau, method="nearest")
     Z_C = here.Z_C.values
-    Z = np.unique(np.concatenate([np.linspace(*settings["Z"], settings["Z_count"]), Z_C]))
+    Z = merged(Z_C, np.linspace(*settings["Z"], settings["Z_count"]))
     plotted = lumen.velocity_tanh(gel, settings["drawn_A"], Z, Z_C[:, np.newaxis])
 
     def at(Z):

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from gelpump.coordinates import ROUNDED, merged
 from gelpump.netcdf import variable
 from gelpump.tube import lumen, scaling
 from gelpump.tube.front import largest_difference, sharpness
@@ -26,20 +27,16 @@ REACH_FACTOR = 2
 def family_ell(settings: Mapping) -> tuple[np.ndarray, np.ndarray]:
     """The tubes that figures name and those of the power law, evenly spaced in ln(1-ell); and
     whether each belongs to the latter.
-
-    Rounded, so that no two tubes of the family differ by rounding alone.
     """
     law = np.round(1 - np.geomspace(*settings["law_range"], settings["law_count"]), 12)
-    ell = np.unique(np.concatenate([settings["ell"], law]))
-    return ell, np.isin(ell, law)
+    ell = merged(settings["ell"], law)
+    return ell, np.isclose(ell[:, np.newaxis], law, rtol=ROUNDED, atol=0.0).any(axis=1)
 
 
 def family_tau(settings: Mapping) -> np.ndarray:
     """The published times and others, spaced evenly in ln(tau)."""
     first, last = settings["tau_range"]
-    return np.unique(
-        np.concatenate([settings["tau"], np.geomspace(first, last, settings["tau_count"])])
-    )
+    return merged(settings["tau"], np.geomspace(first, last, settings["tau_count"]))
 
 
 def family(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from gelpump.coordinates import merged
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
 from gelpump.tube.deswelling import (
@@ -70,8 +71,7 @@ def deswelling_curves(
     none (`Tubes`), or a time negative.
     """
     ell = np.array(settings["ell"])
-    tau = np.linspace(0.0, settings["end"], settings["points"])
-    tau = np.unique(np.concatenate([tau, settings["published_times"]]))
+    tau = merged(settings["published_times"], np.linspace(0.0, settings["end"], settings["points"]))
     tubes = Tubes(ell, eps, gel.M, gel.Pi_ratio, gel.Phi_inf)
     data = {}
     for suffix, process, reswelling in (

@@ -127,7 +127,7 @@ def test_the_surface_is_free_of_stress_up_to_the_ends_of_its_interval(hht, tempe
     for outside in (highest * (1 + 1e-9), lowest - 1e-9 * abs(lowest)):
         if outside > 0.0:
             with pytest.raises(lens.PhaseSeparation):
-                surface.polymer_fraction(np.array([4.0 / outside]))
+                surface.require(np.array([4.0 / outside]))
 
 
 def test_a_profile_that_reaches_the_spinodal_is_told_of(hht):

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from gelpump.coordinates import ROUNDED
 from gelpump.netcdf import variable
 
 if TYPE_CHECKING:
@@ -53,6 +54,10 @@ def bead_dataset(
     """
     import xarray as xr
 
+    if loss and len(t) > 1 and t[-1] - t[-2] <= ROUNDED * t[-1]:  # both are where it stopped
+        t, faces, surface_polymer_fraction = (
+            np.delete(each, -2, axis=0) for each in (t, faces, surface_polymer_fraction)
+        )
     volume = np.diff(faces**3, axis=1)
     phi = np.diff(dry_faces**3) / volume
     r = np.sqrt(0.6 * np.diff(faces**5, axis=1) / volume)

@@ -122,16 +122,20 @@ class Surface:
         phi = np.geomspace(self.lower, self.upper, TABULATED)
         return phi, self.load(phi)
 
+    def require(self, radius: np.ndarray) -> None:
+        """PhaseSeparation if the interval holds no stress-free surface at one of the radii."""
+        h = self._tabulated[1]
+        for a, load in zip(radius, 4.0 / radius, strict=True):
+            if not h[0] < load < h[-1]:
+                raise PhaseSeparation(self.lower if load <= h[0] else self.upper, float(a))
+
     def polymer_fraction(self, radius: np.ndarray) -> np.ndarray:
-        """phi_s of each radius a, shape of ``radius``; PhaseSeparation if the interval ends.
+        """phi_s of each radius a, shape of ``radius``; where the interval ends, its end.
 
         By Newton's method between bounds that close in on the root.
         """
         phi, h = self._tabulated
-        wanted = 4.0 / radius
-        for a, load in zip(radius, wanted, strict=True):
-            if not h[0] < load < h[-1]:
-                raise PhaseSeparation(self.lower if load <= h[0] else self.upper, float(a))
+        wanted = np.clip(4.0 / radius, h[0], h[-1])
         above = np.clip(np.searchsorted(h, wanted), 1, TABULATED - 1)
         low, high = phi[above - 1], phi[above]
         found = np.interp(wanted, h, phi)
@@ -169,6 +173,14 @@ class Bead:
         """Polymer fraction phi of each shell."""
         return self.shells.volume / self.shells.jump(u)
 
+    def possible_polymer_fraction(self, u: np.ndarray) -> np.ndarray:
+        """The same; bdf.NotConverged of an iterate whose shells no gel can have."""
+        phi = self.polymer_fraction(u)
+        low, high = self.gel.polymer_fraction_bounds
+        if phi.min() <= low or phi.max() >= high:
+            raise bdf.NotConverged
+        return phi
+
     def displacement_norm(self, u: np.ndarray, du: np.ndarray) -> float:
         """Largest change of a face's radius, relative to its bead's."""
         a = np.repeat(self.radius(u), self.shells.cells)
@@ -194,13 +206,9 @@ class Bead:
     def linearised(self, u, alpha, history):
         """Conductance K, reaction c and residual G of FiPy's sweep at the iterate u."""
         shells, gel, T, mu = self.shells, self.gel, self.temperature, self.mu
-        phi = self.polymer_fraction(u)
-        if (
-            phi.min() <= gel.polymer_fraction_bounds[0]
-            or phi.max() >= gel.polymer_fraction_bounds[1]
-        ):
-            raise bdf.NotConverged
+        phi = self.possible_polymer_fraction(u)
         a = self.radius(u)
+        self.surface.require(a)
         phi_s = self.surface.polymer_fraction(a)
         K = gel.diffusivity(phi, T) / mu * phi**2 / shells.volume
         Psi = gel.flux_potential(phi, T) / mu
@@ -218,8 +226,9 @@ class Bead:
         return conductance, c, G
 
     def require_one_phase(self, u: np.ndarray) -> None:
-        """PhaseSeparation if the profile reaches polymer fractions where D < 0."""
-        phi = self.polymer_fraction(u)
+        """PhaseSeparation if the surface or a shell reaches polymer fractions where D < 0."""
+        phi = self.possible_polymer_fraction(u)
+        self.surface.require(self.radius(u))
         outside = (phi <= self.surface.lower) | (phi >= self.surface.upper)
         if outside.any():
             i = int(np.argmax(outside))
@@ -239,9 +248,10 @@ def solve(
     """The bead from uniform ``phi_initial``, at constant ``temperature`` for t > 0.
 
     ``times`` (increasing, from 0) are in t_BMJ; ``tolerance`` bounds the local error of a step in
-    the radius of any shell relative to a; ``order`` is that of the backward differences.  The
-    dataset is described in ``gelpump.bead.dataset``; if phases separate it ends there, and its
-    attribute ``stopped`` says at which t, r and phi.
+    the radius of any shell relative to a (the dry thickness of the thinnest shell does, if that is
+    less); ``order`` is that of the backward differences.  The dataset is described in
+    ``gelpump.bead.dataset``; if phases separate it ends there, and its attribute ``stopped`` says
+    at which t, r and phi.
     """
     return solve_meshes(
         gel, temperature, phi_initial, times, [cells], tolerance=tolerance, order=order
@@ -263,6 +273,7 @@ def solve_meshes(
     Each mesh loses its phases at a time of its own; if one does, each mesh is solved by itself.
     """
     shells = Shells(cells)
+    tolerance = min(tolerance, shells.thinnest)  # a larger error would tangle shells
     start = shells.R**3 / phi_initial
     sweep = NewtonSweep(len(shells.R))
     kept_times, states = [0.0], [start]
@@ -270,7 +281,7 @@ def solve_meshes(
     try:
         surface = Surface.around(gel, temperature, phi_initial)
         bead = Bead(gel, surface, shells, sweep, tolerance)
-        surface.polymer_fraction(bead.radius(start))
+        surface.require(bead.radius(start))
         surface_follows = True
         for step in bdf.integrate(
             bead.advance,
@@ -295,7 +306,7 @@ def solve_meshes(
             states.append(latest)
     radii = np.cbrt(np.array(states)[:, shells.outer])
     surface_fractions = np.full(radii.shape, phi_initial)
-    if surface_follows:
+    if surface_follows:  # between two steps the radius may, by what a step leaves, be past its end
         surface_fractions = surface.polymer_fraction(radii.ravel()).reshape(radii.shape)
     ends = np.cumsum(cells)[:-1]
     return [

@@ -18,8 +18,8 @@ The equation is parabolic while the stiffness E = ds_r/d(ln l_r) > 0 at fixed l_
     E = phi dPi/dphi/mu + f^{1/3}/3 + f l_r^2 ;
 
 E is D/mu where the deformation is isotropic. Beyond E = 0 it is ill-posed: phases separate.
-At the surface s_r(f, l_t) = 0 holds at once; f_s stays on the interval of E > 0 it starts from, and
-when that interval holds no stress-free state (at 308 K from the first instant) E = 0 is met there.
+At the surface s_r(f, l_t) = 0 holds at once (`gelpump.bead.stress_free`); where f_s runs into E = 0
+(at 308 K in the first instant) phases separate there.
 
 Discretisation. The unknowns are the radii of the shells' outer faces, so that a shell's polymer
 fraction is exact. Faces lie at R = sin(pi s/2), s uniform: they cluster at the surface, where the
@@ -38,6 +38,7 @@ from numpy.typing import NDArray
 
 from gelpump import progress
 from gelpump.bead.dataset import Loss, bead_dataset
+from gelpump.bead.stress_free import StressFreeSurface, bounds
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -47,25 +48,15 @@ if TYPE_CHECKING:
 LOSS = "the radial stress no longer grows with the radial stretch"
 THINNEST_SHARE = 0.01
 MAX_EVALUATIONS = 300_000  # of the rate; production needs some thousands
+AGREEMENT = 2e-4  # of the times at which two courses end, relative
+CONFIRMATIONS = 8  # at most; one is the rule
 ABSOLUTE = 0.01  # absolute tolerance over the relative one: radii are of order one
-NEWTON_SQUARE = 1e-12  # of a last correction, over E: what it leaves, far below any tolerance
-MARGIN = 1e-9  # trial steps of CVODE may tangle shells: keeps their f within the gel's bounds
-
-
-class Surface(NamedTuple):
-    """Surface state: polymer fraction, stiffness E, and the stress that E > 0 cannot relieve."""
-
-    polymer_fraction: float
-    stiffness: float
-    stress: float
 
 
 class Bead:
     """The equations of the shells' outer face radii r, shape (cells,)."""
 
     def __init__(self, gel: Gel, temperature: float, phi_initial: float, cells: int) -> None:
-        self.gel, self.temperature = gel, temperature
-        self.mu = gel.shear_modulus(1.0)
         self.R = np.sin(np.pi / 2 * np.linspace(0, 1, cells + 1))
         self.volume = np.diff(self.R**3)
         self.mean_square = 0.6 * np.diff(self.R**5) / self.volume
@@ -75,19 +66,8 @@ class Bead:
         self.inward = (self.mean_square - square) / np.append(spacing[0], spacing)
         # of each inner face: where between the means of its two shells it lies
         self.between = (square[:-1] - self.mean_square[:-1]) / np.diff(self.mean_square)
-        low, high = gel.polymer_fraction_bounds
-        self.bounds = low + MARGIN, min(high - MARGIN, 1 / MARGIN)
-        self.follow_surface(phi_initial)
-
-    def radial_stress(self, f, l_t):
-        """s_r at polymer fraction f and hoop stretch l_t."""
-        osmotic = self.gel.osmotic_pressure(f, self.temperature) / self.mu
-        return -osmotic + 1 / (f * l_t**4) - np.cbrt(f)
-
-    def stiffness(self, f, l_t):
-        """E = ds_r/d(ln l_r) at fixed l_t, which is also -f ds_r/df."""
-        osmotic = self.gel.osmotic_modulus(f, self.temperature) / self.mu
-        return osmotic + np.cbrt(f) / 3 + 1 / (f * l_t**4)
+        self.bounds = bounds(gel)
+        self.surface = StressFreeSurface(gel, temperature, phi_initial)
 
     def polymer_fraction(self, r: NDArray) -> NDArray:
         """f of each shell: its dry volume over its volume."""
@@ -108,10 +88,10 @@ class Bead:
         """dr/dt of the faces."""
         f, l_t = self.polymer_fraction(r), self.hoop_stretch(r)
         stretch = r / self.R[1:]
-        f_s = self.surface(stretch[-1]).polymer_fraction
+        f_s = self.surface.at(stretch[-1]).polymer_fraction
         cells = f.size
         stress, square, face = np.zeros(cells + 1), np.empty(cells + 1), np.empty(cells)
-        stress[:-1] = self.radial_stress(f, l_t)
+        stress[:-1] = self.surface.radial_stress(f, l_t)
         square[:-1], square[-1] = l_t**2 * self.mean_square, r[-1] ** 2
         face[:-1], face[-1] = f[:-1] + self.between * (f[1:] - f[:-1]), f_s
         gradient = 2 * r * (stress[1:] - stress[:-1]) / (square[1:] - square[:-1])
@@ -135,63 +115,18 @@ class Bead:
                 column = j[(j + offset >= 0) & (j + offset < r.size)]
                 J[column + offset, column] = change[column + offset] / (2 * step[column])
 
-    def follow_surface(self, f: float, l_t: float = 1.0, stiffness: float = np.inf) -> None:
-        """Let the next surface be sought from that with polymer fraction f at hoop stretch l_t.
-
-        d(ln f)/d(ln l_t) = -4/(f l_t^4 E) along stress-free surfaces; unknown yet, it is zero.
-        """
-        self.followed = f, l_t, -4 / (f * l_t**4 * stiffness)
-
-    def surface(self, l_t: float) -> Surface:
-        """Stress-free surface at hoop stretch l_t, on the last one's interval of E > 0."""
-        last, l_t_last, power = self.followed
-        ratio = l_t / l_t_last
-        if not 0.5 < ratio < 2:  # CVODE also tries beads that are turned inside out
-            return self._search(l_t)
-        f = last * ratio**power
-        if not abs(f - last) < 0.05 * last * (1 - last):
-            return self._search(l_t)
-        for _ in range(10):
-            stiffness = self.stiffness(f, l_t)
-            change = self.radial_stress(f, l_t) / stiffness  # of ln f
-            if stiffness <= 0 or abs(change) > 0.05 * (1 - f):
-                return self._search(l_t)
-            f *= 1 + change
-            if change**2 < NEWTON_SQUARE * min(1.0, stiffness):
-                break
-        self.follow_surface(f, l_t, stiffness)
-        return Surface(f, stiffness, 0.0)
-
-    def _search(self, l_t: float) -> Surface:
-        from scipy.optimize import brentq
-
-        f = self.followed[0]
-        stress = self.radial_stress(f, l_t)
-        # the stress falls with f while E > 0, so its root lies above f if it is positive
-        f = np.geomspace(f, self.bounds[1 if stress > 0 else 0], 2000)
-        parabolic = np.logical_and.accumulate(self.stiffness(f, l_t) > 0)
-        relieved = np.flatnonzero(parabolic & (self.radial_stress(f, l_t) * stress <= 0))
-        if relieved.size:
-            ends = f[max(relieved[0] - 1, 0)], f[relieved[0]]
-            root = brentq(self.radial_stress, *ends, args=(l_t,), xtol=1e-15)
-            self.follow_surface(root, l_t, self.stiffness(root, l_t))
-            return Surface(root, self.stiffness(root, l_t), 0.0)
-        last = max(np.count_nonzero(parabolic) - 1, 0)
-        return Surface(f[last], 0.0, self.radial_stress(f[last], l_t))
-
     def margin(self, r: NDArray) -> float:
         """Positive while the model is parabolic everywhere; falls through zero where it is lost."""
-        inside = self.stiffness(self.polymer_fraction(r), self.hoop_stretch(r)).min()
-        surface = self.surface(r[-1])
-        return min(inside, surface.stiffness - abs(surface.stress))
+        inside = self.surface.stiffness(self.polymer_fraction(r), self.hoop_stretch(r)).min()
+        return min(inside, self.surface.at(r[-1]).margin)
 
     def loss(self, t: float, r: NDArray) -> Loss:
         """What is lost at time t: the shell, or the surface, of least stiffness."""
         f, l_t = self.polymer_fraction(r), self.hoop_stretch(r)
-        stiffness = self.stiffness(f, l_t)
-        surface = self.surface(r[-1])
+        stiffness = self.surface.stiffness(f, l_t)
+        surface = self.surface.at(r[-1])
         i = int(np.argmin(stiffness))
-        if stiffness[i] < surface.stiffness - abs(surface.stress):
+        if stiffness[i] < surface.margin:
             return Loss(t, float(l_t[i] * np.sqrt(self.mean_square[i])), float(f[i]), LOSS)
         return Loss(t, float(r[-1]), float(surface.polymer_fraction), LOSS)
 
@@ -215,10 +150,9 @@ def solve(
     `stopped` is empty.
 
     Raises ValueError for a phi_initial outside the gel's bounds, other times or too few cells, and
-    RuntimeError when CVODE fails or takes more steps than any bead needs.
+    RuntimeError when CVODE fails, takes more steps than any bead needs, or ends elsewhere with each
+    tolerance.
     """
-    from sksundae.cvode import CVODE
-
     times = np.asarray(times, dtype=float)
     low, high = gel.polymer_fraction_bounds
     if not low < phi_initial < high:
@@ -229,8 +163,67 @@ def solve(
         raise ValueError(f"cells = {cells}: must be at least 3")
 
     bead = Bead(gel, temperature, phi_initial, cells)
-    # an error of the faces as large as a shell is thick would tangle them
-    rtol = min(tolerance, THINNEST_SHARE * np.diff(bead.R).min())
+    start = bead.R[1:] * phi_initial ** (-1 / 3)
+    if bead.margin(start) <= 0:
+        course = Course([0.0], [start], bead.loss(0.0, start), 0)
+    else:
+        # an error of the faces as large as a shell is thick would tangle them
+        rtol = min(tolerance, THINNEST_SHARE * np.diff(bead.R).min())
+        course = confirmed(bead, start, times, rtol)
+        bead.surface.restart()  # follow the surface once more from its start
+    faces = np.pad(course.r, ((0, 0), (1, 0)))
+    if np.diff(faces, axis=1).min() <= 0:
+        raise RuntimeError(f"shells tangled: tolerance = {tolerance} is too loose")
+    later = [bead.surface.at(radius).polymer_fraction for radius in faces[1:, -1]]
+    return bead_dataset(
+        np.array(course.t),
+        bead.R,
+        faces,
+        np.array([bead.surface.initial.polymer_fraction, *later]),
+        course.loss,
+        gel=gel.name,
+        temperature=temperature,
+        evaluations=course.evaluations,
+    )
+
+
+class Course(NamedTuple):
+    """Face radii r at the times t, what ended them (None: the last time), and what they took."""
+
+    t: list[float]
+    r: list[NDArray]
+    loss: Loss | None
+    evaluations: int
+
+
+def confirmed(bead: Bead, start: NDArray, times: NDArray, rtol: float) -> Course:
+    """The course to the last of the ``times``, or to where E = 0 whatever the tolerance.
+
+    CVODE bounds the root mean square of the errors of all faces, so that a single one may be off by
+    sqrt(cells) of it: far enough for a step to end in another solution of its equations, in which
+    the outermost shell has collapsed to E < 0. So an end is believed when the course ends there
+    with that factor in the tolerance as well.
+    """
+    course = integrated(bead, start, times, rtol)
+    if course.loss is None:
+        return course
+    for _ in range(CONFIRMATIONS):
+        before, rtol = course, rtol / np.sqrt(len(start))
+        course = integrated(bead, start, times, rtol)
+        if abs(course.t[-1] - before.t[-1]) <= AGREEMENT * before.t[-1]:
+            return course
+    raise RuntimeError(
+        f"phases separate at t = {before.t[-1]:.6g} or {course.t[-1]:.6g}: it depends on CVODE's "
+        f"tolerance, down to {rtol:.2g}"
+    )
+
+
+def integrated(bead: Bead, start: NDArray, times: NDArray, rtol: float) -> Course:
+    """From ``start`` on by CVODE, up to the last of the ``times`` or E = 0.
+
+    E is judged at the ends of CVODE's steps, and between them only to find where it vanishes.
+    """
+    from sksundae.cvode import CVODE
 
     def rate(t, r, drdt):
         drdt[:] = bead.rate(r)
@@ -241,51 +234,33 @@ def solve(
     def parabolic(t, r, events):
         events[0] = bead.margin(r)
 
-    start = bead.R[1:] * phi_initial ** (-1 / 3)
-    t, r, loss, evaluations = [0.0], [start], None, 0
-    if bead.margin(start) <= 0:
-        loss = bead.loss(0.0, start)
-    else:
-        solver = CVODE(
-            rate,
-            rtol=rtol,
-            atol=ABSOLUTE * rtol,
-            linsolver="band",
-            lband=1,
-            uband=1,
-            jacfn=jacobian,
-            max_num_steps=20_000,
-            eventsfn=parabolic,
-            num_events=1,
-        )
-        solver.init_step(0.0, start)
-        for time in times[1:]:
-            step = solver.step(time)
-            if not step.success:
-                raise RuntimeError(f"CVODE at t = {step.t}: {step.message}")
-            progress.at(float(step.t), float(times[-1]))
-            t.append(float(step.t))
-            r.append(np.array(step.y))
-            evaluations = int(step.nfev)
-            if evaluations > MAX_EVALUATIONS:
-                raise RuntimeError(f"CVODE at t = {step.t}: {evaluations} evaluations of the rate")
-            if step.t < time:
-                loss = bead.loss(float(step.t), r[-1])
-                break
-    bead.follow_surface(phi_initial)  # follow the surface once more from its start
-    if np.min(np.diff(r, axis=1, prepend=0.0)) <= 0:
-        raise RuntimeError(f"shells tangled: tolerance = {tolerance} is too loose")
-    surface = [bead.surface(row[-1]).polymer_fraction for row in r]
-    return bead_dataset(
-        np.array(t),
-        bead.R,
-        np.pad(r, ((0, 0), (1, 0))),
-        np.array(surface),
-        loss,
-        gel=gel.name,
-        temperature=temperature,
-        evaluations=evaluations,
+    bead.surface.restart()
+    solver = CVODE(
+        rate,
+        rtol=rtol,
+        atol=ABSOLUTE * rtol,
+        linsolver="band",
+        lband=1,
+        uband=1,
+        jacfn=jacobian,
+        max_num_steps=20_000,
+        eventsfn=parabolic,
+        num_events=1,
     )
+    solver.init_step(0.0, start)
+    t, r = [0.0], [start]
+    for time in times[1:]:
+        step = solver.step(time)
+        if not step.success:
+            raise RuntimeError(f"CVODE at t = {step.t}: {step.message}")
+        progress.at(float(step.t), float(times[-1]))
+        t.append(float(step.t))
+        r.append(np.array(step.y))
+        if step.nfev > MAX_EVALUATIONS:
+            raise RuntimeError(f"CVODE at t = {step.t}: {step.nfev} evaluations of the rate")
+        if step.i_events is not None:
+            return Course(t, r, bead.loss(float(step.t), r[-1]), int(step.nfev))
+    return Course(t, r, None, int(step.nfev))
 
 
 def solve_meshes(

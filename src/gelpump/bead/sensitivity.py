@@ -54,7 +54,8 @@ def sensitivity(
     temperature: float,
     half_units: Mapping[str, float],
 ) -> "xr.Dataset":
-    """Dims (parameter, t): change of the radius for half a unit of each parameter's last digit.
+    """Dims (parameter, t): change of the radius for half a unit of each parameter's last digit, at
+    the times that all runs reach.
 
     radius(gel, temperature) runs a case with the gel and the temperature after the jump;
     half_units: by name, of the gel's parameters and of ``temperature_final``.
@@ -70,11 +71,16 @@ def sensitivity(
             else:
                 shifted = replace(gel, **{name: getattr(gel, name) + step})
                 runs.append(radius(shifted, temperature))
-        changes.append((runs[0] - runs[1]).values / (2.0 * SHARE))
+        changes.append((runs[0] - runs[1]) / (2.0 * SHARE))
+    changes = xr.align(*changes)  # runs in which phases separate end early
     attrs = {"units": "1", "long_name": "change of the radius for half a unit of the last digit"}
     return xr.Dataset(
         {
-            "radius_change": (("parameter", "t"), np.array(changes), attrs),
+            "radius_change": (
+                ("parameter", "t"),
+                np.array([each.values for each in changes]),
+                attrs,
+            ),
             "half_unit": (
                 "parameter",
                 np.array(list(half_units.values())),
@@ -86,7 +92,7 @@ def sensitivity(
             ),
         },
         coords={
-            "t": ("t", runs[0].t.values, runs[0].t.attrs),
+            "t": ("t", changes[0].t.values, runs[0].t.attrs),
             "parameter_name": (
                 "parameter",
                 list(half_units),

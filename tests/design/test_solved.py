@@ -148,3 +148,20 @@ def test_the_page_keeps_to_its_margins(request, name):
         row.sort()
         for (_, end, left), (start, _, right) in pairwise(row):
             assert end < start, (left, right)
+
+
+@pytest.mark.parametrize(("step", "when"), [("2.2 K", "after "), ("3 K", "at once ")])
+def test_a_bead_heated_into_its_spinodal_has_its_sheet(step, when, tmp_path):
+    """A red light and the sentence, with what was solved; no response time, and why not."""
+    found = {"gel": "HHT", "critical_temperature": "305.5 K", "heating_step": step}
+    _, data = solved("bead", BEAD, **found, wanted={"response_time": "2 s"})
+    assert int(data.light_one_phase) == 2
+    assert data.light_one_phase.reason.startswith(f"phases separate {when}")
+    assert (data.sizes["t"] == 1) == (when == "at once ")
+    assert "response_time" not in data
+    assert data.attrs["stopped"] in "".join(sheet.notes(data))
+    with style.styled():
+        style.save(drawing.page(data), [tmp_path / "sheet.pdf"])
+    assert "phases separate" in sheet.html(data, "<svg/>")
+    netcdf.write(data, tmp_path / "bead.nc", "a bead that stops", {})
+    assert list(dataset.csv_rows(netcdf.read(tmp_path / "bead.nc")))

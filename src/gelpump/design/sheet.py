@@ -62,6 +62,12 @@ def notes(data: xr.Dataset) -> list[str]:
     """What has to be said beside the numbers."""
     keys = ("gel_warnings", "lumen_note", "gel_note")
     found = [data.attrs[key] for key in keys if key in data.attrs]
+    if "wanted_response_time" in data and "response_time" not in data:
+        why = data.attrs.get("stopped") or "it is slower than we waited for"
+        found.append(
+            "There is no response time to compare with the one wanted: the bead did not make 99 % "
+            f"of its change of radius ({why})."
+        )
     if dataset.answers(data):
         said = "Ranges are of one parameter at a time, the others as designed"
         if data.attrs["kind"] == "tube":

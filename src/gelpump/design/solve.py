@@ -350,8 +350,16 @@ def _bead_in_si(design, bead):
     t = ("t", time * bead.t.values, {"units": "s", "long_name": "elapsed time"})
     keep = {key: bead.attrs[key] for key in ("steps", "sweeps", "stopped")}
     if "stopped_t" in bead.attrs:
+        after, where = (
+            f"{units.told(number)} {units.readable(unit)}"
+            for number, unit in (
+                units.shown(time * bead.attrs["stopped_t"], "s"),
+                units.shown(R_dry * bead.attrs["stopped_r"], "m"),
+            )
+        )
+        when = f"after {after}" if bead.attrs["stopped_t"] else "at once"
         keep["stopped"] = (
-            f"phases separate after {time * bead.attrs['stopped_t']:.3g} s at "
-            f"r = {R_dry * bead.attrs['stopped_r']:.3g} m: D < 0"
+            f"phases separate {when} at r = {where}, φ = "
+            f"{units.told(bead.attrs['stopped_polymer_fraction'])}: D < 0"
         )
     return xr.Dataset(data, coords={"t": t}, attrs=keep)

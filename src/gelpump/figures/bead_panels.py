@@ -17,6 +17,7 @@ MODELS = {"lens": "LENS", "nonlinear": "nonlinear"}
 COLOURS = {"lens": style.LENS, "nonlinear": style.NONLINEAR}
 RADIUS = r"$r/R_\mathrm{dry}$"
 TIME = r"$t_\mathrm{BMJ}$"
+SHORTEST = 1e-3  # of the case's end: where a logarithmic axis begins without profile times
 THINNED = (2, 4)  # of the map, one time in 2 and one shell in 4 are told in numbers
 
 
@@ -27,7 +28,8 @@ def draw(
 
     beads: datasets of ``bead.dataset`` for "lens" and "nonlinear".  case: its ``published_times``
     and ``profile_times`` are used.  published: radii read off the paper at the published times,
-    by model.  time_scale: "log" or "linear".
+    by model.  time_scale: "log" or "linear".  A run that stopped, be it at t = 0, ends with a
+    cross, its last profile, in black, and the sentence that says why.
     """
     fig = style.figure(height=2.7)
     left, right = fig.subplots(1, 2, width_ratios=(1.1, 1.0))
@@ -55,16 +57,36 @@ def draw(
         columns = {Quantity.BEAD_TIME: case["published_times"], Quantity.BEAD_RADIUS: radii}
         style.tell(fig, "a", f"radius {MODELS[model]} published", columns)
     times = case["profile_times"] or beads["lens"].t.values[:: max(1, beads["lens"].t.size // 8)]
-    positive = [t for t in times if t > 0]
-    start = min(positive) if time_scale == "log" else 0.0
+    stops = [bead.attrs.get("stopped_t", 0.0) / 2 for bead in beads.values()]
+    earliest = min((t for t in [*times, *stops] if t > 0), default=SHORTEST * case["end"])
+    start = earliest if time_scale == "log" else 0.0
     top = 1.05 * max(float(bead.radius.max()) for bead in beads.values())
-    left.set(xlim=(start, beads["lens"].t.values[-1]), ylim=(0.0, top), xlabel=TIME, ylabel=RADIUS)
+    left.set(xlim=(start, case["end"]), ylim=(0.0, top), xlabel=TIME, ylabel=RADIUS)
     _profiles(fig, right, beads, times)
+    _stops(fig, (left, right), beads, start)
     right.set_xlim(0.0, top)
+    right.set_ylim(bottom=0.0)
     fig.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=4)
     style.panel_label(left, "a")
     style.panel_label(right, "b")
     return fig
+
+
+def _stops(fig, axes, beads, start):
+    """A cross where each run stopped, at the earliest time shown if that was before, and why."""
+    sentences = []
+    for model, bead in beads.items():
+        if "stopped_t" not in bead.attrs:
+            continue
+        t, radius = bead.attrs["stopped_t"], float(bead.radius[-1])
+        cross = {"color": COLOURS[model], "markersize": 6, "markeredgewidth": 1.6, "zorder": 6}
+        axes[0].plot(max(t, start), radius, "x", clip_on=False, **cross)
+        columns = {Quantity.BEAD_TIME: [t], Quantity.BEAD_RADIUS: [radius]}
+        style.tell(fig, "a", f"phases separate {MODELS[model]}", columns)
+        sentences.append(f"{MODELS[model]}: {bead.attrs['stopped']}")
+        _profile(fig, axes[1], model, bead.isel(t=-1), "black")
+    if sentences:
+        fig.supxlabel("\n".join(sentences), fontsize=7)
 
 
 def _kymograph(fig, ax, bead, time_scale):
@@ -72,6 +94,8 @@ def _kymograph(fig, ax, bead, time_scale):
     ax.set_xscale(time_scale)
     first = 1 if time_scale == "log" else 0  # t = 0 is not on a logarithmic axis
     phi = bead.polymer_fraction.values[first:]
+    if len(phi) < 2:  # it stopped at once: there is no course to show
+        return
     t = np.broadcast_to(bead.t.values[first:, None], (len(phi), bead.sizes["face"]))
     mesh = ax.pcolormesh(
         t,
@@ -99,24 +123,23 @@ def _profiles(fig, ax, beads: Mapping[str, "xr.Dataset"], times: Sequence[float]
             if time > bead.t.values[-1]:  # the run stopped before
                 continue
             now = bead.sel(t=time, method="nearest")
-            r, phi = _profile(now)
-            ax.plot(
-                r,
-                phi,
-                "-" if model == "lens" else "--",
-                color=colour if model == "lens" else style.NONLINEAR,
-                linewidth=1.3 if model == "lens" else 0.7,
-                dashes=(None, None) if model == "lens" else (3, 2),
-            )
-            columns = {Quantity.BEAD_TIME: now.t, Quantity.BEAD_RADIUS: r, Quantity.POLYMER: phi}
-            style.tell(fig, "b", f"profile {MODELS[model]}", columns)
+            _profile(fig, ax, model, now, colour if model == "lens" else style.NONLINEAR)
     ax.set(xlabel=RADIUS, ylabel=r"polymer fraction $\phi$")
-    ax.set_ylim(bottom=0.0)
     style.steps(fig, ax, times, colours, TIME)
 
 
-def _profile(now):
-    """r and phi from the centre to the surface; at t = 0 the surface has not yet responded."""
+def _profile(fig, ax, model, now, colour):
+    """phi from the centre to the surface; at t = 0 the surface has not yet responded."""
     r, phi = now.r.values, now.polymer_fraction.values
     surface = phi[-1] if now.t == 0 else float(now.surface_polymer_fraction)
-    return np.r_[0.0, r, now.radius], np.r_[phi[0], phi, surface]
+    r, phi = np.r_[0.0, r, now.radius], np.r_[phi[0], phi, surface]
+    ax.plot(
+        r,
+        phi,
+        "-" if model == "lens" else "--",
+        color=colour,
+        linewidth=1.3 if model == "lens" else 0.7,
+        dashes=(None, None) if model == "lens" else (3, 2),
+    )
+    columns = {Quantity.BEAD_TIME: now.t, Quantity.BEAD_RADIUS: r, Quantity.POLYMER: phi}
+    style.tell(fig, "b", f"profile {MODELS[model]}", columns)

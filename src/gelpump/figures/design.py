@@ -6,6 +6,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from gelpump.coordinates import ROUNDED
 from gelpump.design import sheet
 from gelpump.figures import style
 
@@ -117,9 +118,13 @@ def _draw(fig, data, grid=None):
 
 def _coloured(data):
     """The polymer fraction where it is known, else its ratio; with a label."""
+    name, label = "polymer_ratio", r"polymer fraction, $\phi/\phi_{00}$"
     if "polymer_fraction" in data:
-        return data.polymer_fraction.values, r"polymer fraction $\phi$"
-    return data.polymer_ratio.values, r"polymer fraction, $\phi/\phi_{00}$"
+        name, label = "polymer_fraction", r"polymer fraction $\phi$"
+    values = data[name].values
+    if np.ptp(values) <= ROUNDED * values.max():  # it stopped before anything happened
+        values = np.full_like(values, values.flat[0])
+    return values, label
 
 
 def _section(fig, ax, data):
@@ -186,11 +191,11 @@ def _lumen(ax, data):
 def _states(fig, ax, data):
     values, label = _coloured(data)
     a_0 = float(data.radius[0])
-    made = (a_0 - data.radius.values) / (a_0 - float(data.radius.values.min()))
+    change = a_0 - data.radius.values
     angle = np.linspace(0, 2 * np.pi, 121)
     centre = 0.0
-    for share in (0.0, 0.5, 0.9, 1.0):
-        index = int(np.abs(made - share).argmin())
+    shown = [int(np.abs(change - share * change.max()).argmin()) for share in (0.0, 0.5, 0.9, 1.0)]
+    for index in sorted(set(shown)):  # one if it stopped at once
         r = 1e3 * data.r_face.values[index]
         x = centre + r[:, np.newaxis] * np.cos(angle)
         mesh = ax.pcolormesh(
@@ -222,13 +227,18 @@ def _radius(ax, data):
             ax.annotate(
                 f"${name}_{{{digits}}}$", here, (3, 4), textcoords="offset points", fontsize=8
             )
-    ax.set(xlabel="$t$ (s)", ylabel="radius (mm)", xlim=(0, float(data.t[-1])))
+    ax.set(xlabel="$t$ (s)", ylabel="radius (mm)", xlim=(0, float(data.t[-1]) or None))
     ax.set_title("radius", loc="left")
+    if data.attrs.get("stopped"):
+        end = float(data.t[-1]), 1e3 * float(data.radius[-1])
+        ax.plot(*end, "x", color=LIGHT_COLOURS["red"], clip_on=False, label="phases separate")
+        ax.legend(loc="upper right", fontsize=7)
 
 
 def _profiles(ax, data):
     values, label = _coloured(data)
-    indices = np.unique(np.linspace(2, data.sizes["t"] - 1, 6).astype(int))
+    last = data.sizes["t"] - 1
+    indices = np.unique(np.linspace(min(2, last), last, 6).astype(int))
     for index, colour in zip(indices, style.shades(style.LATER, len(indices)), strict=True):
         ax.plot(1e3 * data.r[index], values[index], color=colour,
                 label=sheet.said(float(data.t[index]), "s", 2))  # fmt: skip

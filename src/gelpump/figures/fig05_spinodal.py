@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 COLOURS = (style.SWELLING, style.DRYING, style.SEPARATING)
 CLOSE = 0.1  # share of the temperatures within which folds and tip are too close to be told apart
+INSET_ABOVE = 1.6  # of the folds' height
 ARROW = {"arrowstyle": "-|>", "linewidth": 0, "mutation_scale": 12, "shrinkA": 0, "shrinkB": 0}
 
 
@@ -34,19 +35,24 @@ def draw(
     ax = fig.subplots()
     _plane(ax, material, beads, cases, span)
     _tell(fig, material, beads, cases, span)
-    top = 1.12 * max(float(bead.polymer_fraction.max()) for bead in beads.values())
-    ax.set(ylim=(0.0, top), xlabel="temperature $T$ (K)", ylabel=r"polymer fraction $\phi$")
     T, phi = _special_points(material)
-    if len(T) > 1 and np.ptp(T) < CLOSE * np.ptp(span):
+    shown = [1.12 * float(bead.polymer_fraction.max()) for bead in beads.values()]
+    shown += [1.12 * bead.attrs.get("stopped_polymer_fraction", 0.0) for bead in beads.values()]
+    close = len(T) > 1 and np.ptp(T) < CLOSE * np.ptp(span)
+    if close:
+        shown.append(phi.max() + INSET_ABOVE * np.ptp(phi))
+    ax.set(ylim=(0.0, max(shown)), xlabel="temperature $T$ (K)", ylabel=r"polymer fraction $\phi$")
+    if close:
         inset = ax.inset_axes((0.3, 0.27, 0.37, 0.55))
         width, height = np.ptp(T), np.ptp(phi)
         _plane(inset, material, beads, cases, (T.min() - 0.7 * width, T.max() + 0.7 * width))
-        inset.set_ylim(phi.min() - 1.1 * height, phi.max() + 1.6 * height)
+        inset.set_ylim(phi.min() - 1.1 * height, phi.max() + INSET_ABOVE * height)
         inset.ticklabel_format(useOffset=False)
         inset.locator_params(axis="x", nbins=4)
         style.zoom(ax, inset, joined=True)
     handles, labels = ax.get_legend_handles_labels()
-    fig.legend(handles, labels, loc="outside upper center", ncols=4)
+    once = dict(zip(labels, handles, strict=True))
+    fig.legend(list(once.values()), list(once), loc="outside upper center", ncols=4)
     return fig
 
 

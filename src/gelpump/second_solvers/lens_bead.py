@@ -79,7 +79,9 @@ def literature_chi(gel, T):
 
 
 def stable_interval(gel, T, phi):
-    """The interval around phi within which D > 0."""
+    """The interval around phi within which D > 0, of no length if there is none."""
+    if diffusivity(gel, T, phi) <= 0:
+        return phi, phi
     grid = np.concatenate([np.geomspace(1e-6, 0.1, 201), np.linspace(0.1, 1 - 1e-9, 2001)[1:]])
     stable = diffusivity(gel, T, grid) > 0
 
@@ -156,6 +158,13 @@ class Shells:
             )
         return np.diff(slopes, axis=0, prepend=0.0) / self.volume[:, None]
 
+    def course(self, times, states, stop: float | None) -> Course:
+        """What the states J, at the first of the times, say of radii and polymer fractions."""
+        J = np.array(states)
+        cube = np.cumsum(J * self.volume, axis=1)
+        r = np.cbrt(cube - J * self.volume / 2)
+        return Course(np.asarray(times)[: len(J)], np.cbrt(cube[:, -1]), r, 1 / J, stop)
+
     def margin(self, J: NDArray) -> float:
         """Positive while the surface is free of stress and all shells are stable."""
         load = 4 / np.cbrt(J @ self.volume)
@@ -183,6 +192,9 @@ def solve(gel, T, phi_initial, times, cells, *, rtol=1e-8) -> Course:
     def margin(t, J, events):
         events[0] = shells.margin(J)
 
+    states, stop = [np.full(cells, 1 / phi_initial)], None
+    if shells.margin(states[0]) <= 0:
+        return shells.course(times, states, 0.0)
     solver = CVODE(
         rate,
         jacfn=jacobian,
@@ -193,20 +205,16 @@ def solve(gel, T, phi_initial, times, cells, *, rtol=1e-8) -> Course:
         eventsfn=margin,
         num_events=1,
     )
-    states, stop = [np.full(cells, 1 / phi_initial)], None
     solver.init_step(0.0, states[0])
     for time in times[1:]:
         step = solver.step(time)
         if not step.success:
             raise RuntimeError(f"CVODE at t = {step.t}: {step.message}")
-        if step.t < time:
+        if step.i_events is not None:
             stop = float(step.t)
             break
         states.append(np.array(step.y))
-    J = np.array(states)
-    cube = np.cumsum(J * shells.volume, axis=1)
-    r = np.cbrt(cube - J * shells.volume / 2)
-    return Course(np.asarray(times)[: len(J)], np.cbrt(cube[:, -1]), r, 1 / J, stop)
+    return shells.course(times, states, stop)
 
 
 def observed(gel, T, phi_initial, times, cells: int, rtol: float) -> xr.Dataset:

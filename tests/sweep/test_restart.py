@@ -95,8 +95,10 @@ def test_only_what_depends_on_a_change_is_solved_again(restarted):
     clone, *_ = restarted
     try:
         assert planned(clone) == 0
-        describe(clone, accuracy={"designs": 3, "error": 0.05})
+        describe(clone, accuracy={**MINE["accuracy"], "designs": 3})
         assert planned(clone) == 0
+        describe(clone, accuracy={"error": 0.05})  # which waves may be used
+        assert planned(clone) == 4
         describe(clone, tau=[0.002])
         assert planned(clone) == 4
         describe(clone, chunk=6)

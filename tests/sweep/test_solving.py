@@ -1,5 +1,6 @@
 """Chunks of designs against single solves, an exact law of the tube, and how failures are told."""
 
+import json
 import os
 import subprocess
 import sys
@@ -76,6 +77,22 @@ def test_a_chunk_is_as_accurate_as_its_sweep_asks(cube):
     assert accuracy.verdict(none.assign(flagged=0))[0]  # none was asked for
 
 
+def test_waves_serve_where_they_are_accurate_enough(cube):
+    sweep, pulses = cube
+    mixed = solving.solve_designs(pulses, sweep["tau"], sweep["numerics"], error=1e-2)
+    by_wave = (mixed.solver == solving.WAVE).values
+    assert by_wave.any()
+    assert not by_wave.all()
+    assert (mixed.uncertainty.values[by_wave] <= 1e-2).all()
+    assert (pulses.solver == solving.PULSE).all()
+    for name in solving.OUTPUTS:
+        apart = np.abs(mixed[name] / pulses[name] - 1).values
+        # a late wave beside a pulse: the pulse of that time reaches the times before it
+        assert (apart <= mixed.uncertainty.values + solving.PULSE_UNCERTAINTY).all(), name
+    finest = accuracy.errors(mixed, sweep)  # by pulses only
+    assert accuracy.verdict(finest)[0]
+
+
 def test_a_large_chunk_is_several_families(monkeypatch, cube):
     sweep, together = cube
     monkeypatch.setattr(solving, "FAMILY", 5)
@@ -127,7 +144,7 @@ def test_a_design_that_fails_leaves_the_others_alone(monkeypatch):
     monkeypatch.setattr(solving, "_family", failing)
     made = solving.solve_designs(designs(4, Le=[10.0, 7.0, 10.0, 10.0]), [0.01], NUMERICS)
     assert made.status.values.tolist() == [0, solving.FAILED, 0, 0]
-    assert "no convergence" in made.reason.values[1]
+    assert "no convergence" in json.loads(made.reasons)["1"]
     assert np.isnan(made.A.values[1]).all()
     assert np.isfinite(made.A.values[[0, 2, 3]]).all()
     assert made.A.values[0] == pytest.approx(made.A.values[2], rel=5e-3)
@@ -138,7 +155,7 @@ def test_a_result_that_breaks_its_conservation_is_flagged(monkeypatch):
     monkeypatch.setattr(solving, "_family", lambda *a: (honest(*a)[0], np.array([1e-3, 0.2])))
     made = solving.solve_designs(designs(2), [0.01], NUMERICS)
     assert made.status.values.tolist() == [0, solving.INACCURATE]
-    assert "conservation of water" in made.reason.values[1]
+    assert "conservation of water" in json.loads(made.reasons)["1"]
 
 
 @pytest.mark.parametrize(
@@ -148,7 +165,7 @@ def test_a_result_that_breaks_its_conservation_is_flagged(monkeypatch):
 )
 def test_corners_that_a_tenth_of_the_tolerance_would_stall(corner):
     made = solving.solve_designs(designs(1, **corner), [0.01], NUMERICS)
-    assert int(made.status[0]) <= ENDED_WELL, made.reason.values[0]
+    assert int(made.status[0]) <= ENDED_WELL, made.reasons
 
 
 def test_sobols_indices_of_a_known_function():

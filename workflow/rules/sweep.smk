@@ -52,6 +52,7 @@ rule sweep_chunk:
         "results/logs/sweep_{sweep}/{chunk}.log",
     params:
         sweep=sweep_params("tau", "numerics"),
+        error=lambda wildcards: sweep_plan(wildcards.sweep)["accuracy"]["error"],
         size=lambda wildcards: sweep_plan(wildcards.sweep)["chunk"],
     script:
         "../scripts/sweep_chunk.py"

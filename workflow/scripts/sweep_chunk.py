@@ -1,4 +1,4 @@
-"""Rule sweep_chunk: the pulse solves of one chunk of designs."""
+"""Rule sweep_chunk: the pulses of one chunk of designs."""
 
 from _helpers import job
 
@@ -9,7 +9,7 @@ with job(snakemake) as provenance:
     sweep, size = snakemake.params.sweep, snakemake.params.size
     start = int(snakemake.wildcards.chunk) * size
     here = part.read(snakemake.input.designs, lambda count: slice(start, start + size))
-    solved = solving.solve_designs(here, sweep["tau"], sweep["numerics"])
+    solved = solving.solve_designs(here, sweep["tau"], sweep["numerics"], snakemake.params.error)
     netcdf.write(
         solved,
         snakemake.output[0],

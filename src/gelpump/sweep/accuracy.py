@@ -26,7 +26,7 @@ def errors(coarse: xr.Dataset, sweep: Mapping) -> xr.Dataset:
     without a finer solution are counted as unconfirmed.
     """
     numerics = sweep["numerics"]
-    fine = solve_designs(
+    fine = solve_designs(  # by pulses, whatever gave the designs
         coarse[DESIGN],
         sweep["tau"],
         {

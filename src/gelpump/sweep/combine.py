@@ -26,6 +26,7 @@ def combine(
 ) -> int:
     """Write `size` designs of the chunks, in their order, to `target`; the number that failed."""
     failed = start = 0
+    reasons = {}
     with whole(target) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as out:
         for path in paths:
             with netCDF4.Dataset(path) as chunk:
@@ -39,7 +40,9 @@ def combine(
                     if each.dimensions[:1] == ("index",):
                         out[name][start:stop] = each[:]
                 failed += int((chunk["status"][:] == 3).sum())
+                reasons |= json.loads(chunk.reasons)
                 start = stop
+        out.reasons = json.dumps(reasons)
         if start != size:
             raise ValueError(f"the chunks hold {start} designs instead of {size}")
     return failed
@@ -50,10 +53,7 @@ def _declare(out, chunk, size):
         out.createDimension(name, size if name == "index" else len(dimension))
     for name, each in chunk.variables.items():
         fill = each.getncattr("_FillValue") if "_FillValue" in each.ncattrs() else False
-        datatype = str if each.dtype is str else each.dtype
-        made = out.createVariable(
-            name, datatype, each.dimensions, **({} if datatype is str else {"fill_value": fill})
-        )
+        made = out.createVariable(name, each.dtype, each.dimensions, fill_value=fill)
         made.setncatts({k: each.getncattr(k) for k in each.ncattrs() if k != "_FillValue"})
         made.set_auto_mask(False)
         if each.dimensions[:1] != ("index",):

@@ -41,7 +41,7 @@ MOST = 10_000_000  # designs
 WHOLE = {  # keys of whole numbers: least and largest
     "samples": (1, MOST),
     "seed": (0, 2**32 - 1),
-    "chunk": (1, 50_000),
+    "chunk": (1, 500_000),
 }
 
 

@@ -109,7 +109,7 @@ def change(given, path, value):
         (CUBE, "samples", 1e3, "samples = 1000.0: must be a whole number"),
         (CUBE, "samples", True, "samples = True: must be a whole number"),
         (CUBE, "samples", 10**8, "samples = 100000000: must be a whole number from 1 to 10000000"),
-        (CUBE, "chunk", 10**5, "chunk = 100000: must be a whole number from 1 to 50000"),
+        (CUBE, "chunk", 10**6, "chunk = 1000000: must be a whole number from 1 to 500000"),
         (CUBE, "seed", -1, "seed = -1: must be a whole number from 0"),
         (SOBOL, "samples", 12, "samples = 12: must be a power of two for sobol"),
         (SOBOL, "samples", 2**23, "give 33554432 designs: at most 10000000 are allowed"),

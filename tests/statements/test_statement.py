@@ -14,6 +14,7 @@ from gelpump.statements.statement import (
     record,
     said,
     status,
+    where_from,
 )
 
 TWICE = {"value": 304.5, "resolution": 0.05, "drawn": 304.7, "drawn_resolution": 0.05}
@@ -145,6 +146,19 @@ def test_the_ledger_tells_the_value_that_disagrees(computed, size, measured):
     (entry,) = views.ledger([judged(Computed(computed, 0.0), TWICE)])
     assert entry["size"] == pytest.approx(size)
     assert (entry["measured"], entry["allowed"]) == (measured, 0.05)
+
+
+@pytest.mark.parametrize(
+    ("evidence", "file"),
+    [
+        ("front_fit: A", "data/front_fit.nc: A"),
+        ("truth/waves: shed", "truth/waves.nc: shed"),
+        ("config: scales", "config: scales"),
+        ("docs/performance.md", "docs/performance.md"),
+    ],
+)
+def test_evidence_is_a_file_below_results(evidence, file):
+    assert where_from(evidence) == file
 
 
 @pytest.mark.parametrize(

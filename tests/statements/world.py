@@ -135,9 +135,32 @@ def tubes():
         "lumen_pulse": lumen,
         "water_budget": budget,
         "deswelling_map": times,
+        "wall_times": walls(),
         "deswelling_curves": solved("ell tau", Phi1=(1.0 + ELL)[:, np.newaxis]),
         "tube_flow_whole": flow(),
     }
+
+
+def walls():
+    """Times that follow (1-ell)^2.2 on one surface and place, and are 1 elsewhere."""
+    ell = np.array([0.1, 0.5, 0.9, 0.5])
+    tau99 = np.ones((2, 2, 4))
+    tau99[0, 0] = (1.0 - ell) ** 2.2
+    tau99[0, 0, 3] = 7.0
+    dims = ("surface", "place", "tube")
+    return xr.Dataset(
+        {
+            "tau99": (dims, tau99),
+            "tau99_uncertainty": (dims, DOUBT * tau99),
+            "tau99_printed": ("tube", (1.0 - ell) ** 2),
+            "ell": ("tube", ell),
+        },
+        {
+            "surface": ["conservative", "balanced"],
+            "place": ["midline", "mean"],
+            "varied": ("tube", ["ell", "ell", "ell", "M"]),
+        },
+    )
 
 
 def flow():

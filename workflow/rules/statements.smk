@@ -20,6 +20,7 @@ EVIDENCE = expand(
         "sensitivity_drying",
         "deswelling_map",
         "deswelling_curves",
+        "wall_times",
         "tube_pulse",
         "refinement/tube_pulse",
         "front_fit",

@@ -1,8 +1,8 @@
 """Derivations that decide a statement: each solves or differentiates what the paper starts from.
 
-Nothing here uses the formula that it is to test: temperatures are solved for, walls are resolved,
-moduli come from an energy and radial terms from differences.  Each takes its resolution, so that
-three of them tell the numerical uncertainty.
+Nothing here uses the formula that it is to test: temperatures are solved for, moduli come from an
+energy and radial terms from differences.  Each takes its resolution, so that three of them tell the
+numerical uncertainty.
 """
 
 from collections.abc import Callable
@@ -12,7 +12,6 @@ import numpy as np
 from gelpump.uncertainty import convergence_index
 
 FAR = 12.0  # end of the domain of heat, in diffusion lengths sqrt(Le tau)
-NEARLY = 0.99  # of the change, at which a tube counts as deswollen
 
 
 def refined(solve: Callable[[int], float], coarse: int) -> tuple[np.ndarray, np.ndarray]:
@@ -37,36 +36,6 @@ def heat_front(intervals: int) -> float:
     departure = mode @ (np.exp(rate) * (mode.T @ (-1.0 - steady[1:-1])))
     theta = steady + np.concatenate([[0.0], departure, [0.0]])
     return float(CubicSpline(x, theta).roots(extrapolate=False)[0])
-
-
-def wall_time(gel, ell: float, cells: int) -> float:
-    """Time in which a wall whose thickness is resolved makes 99 % of its change, times 1/eps^2.
-
-    phi_t = Phi_m^{2/3} (1/s) (s D phi_s)_s for ell < s < 1 with phi = Phi_inf on both edges: the
-    radial part of eqn:tube_evolution with eqn:b1bc and eqn:b0bc, in the radius s = R Phi_m^{1/3} of
-    the swollen tube, Phi_m being phi on the midline as in the paper.
-    """
-    from scipy.integrate import solve_ivp
-    from scipy.interpolate import CubicSpline
-
-    face = np.linspace(ell, 1.0, cells + 1)
-    volume, gap = np.diff(face**2) / 2.0, np.full(cells + 1, face[1] - face[0])
-    gap[[0, -1]] /= 2.0
-
-    def rate(_, phi):
-        whole = np.concatenate([[gel.Phi_inf], phi, [gel.Phi_inf]])
-        D = gel.diffusivity((whole[1:] + whole[:-1]) / 2.0, 1.0)
-        return np.diff(face * D * np.diff(whole) / gap) / volume
-
-    end = 2.0 * (1.0 - ell) ** 2
-    own_time = end * np.linspace(0.0, 1.0, 501) ** 2  # it passes as Phi_m^{2/3} dtau
-    solved = solve_ivp(
-        rate, (0.0, end), np.ones(cells), "LSODA", own_time, lband=1, uband=1, rtol=1e-7, atol=1e-9
-    )
-    middle = solved.y[cells // 2 - 1 : cells // 2 + 1].mean(axis=0)
-    done = CubicSpline(own_time, (middle - 1.0) / (gel.Phi_inf - 1.0) - NEARLY)
-    tau = CubicSpline(own_time, middle ** (-2.0 / 3.0)).antiderivative()
-    return float(tau(done.roots(extrapolate=False)[0]))
 
 
 def modulus(gel, phi: np.ndarray, T: float, phi_00: float, steps: int) -> np.ndarray:

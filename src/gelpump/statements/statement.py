@@ -98,7 +98,8 @@ def where_from(evidence: str) -> str:
     """ "dataset: variables" as the file below results that holds them; anything else as it is."""
     dataset, colon, variables = evidence.partition(": ")
     known = colon and "." not in dataset and dataset != "config"
-    return f"data/{dataset}.nc: {variables}" if known else evidence
+    folder = "" if dataset.startswith("truth/") else "data/"
+    return f"{folder}{dataset}.nc: {variables}" if known else evidence
 
 
 def said(function: Callable) -> str:

@@ -9,7 +9,6 @@ from gelpump.statements.derivations import (
     heat_front,
     radial_term,
     refined,
-    wall_time,
 )
 from gelpump.statements.statement import IDENTITY, LINE, Collection, Computed, holds
 from gelpump.uncertainty import rounding_error
@@ -57,20 +56,17 @@ def poroelastic_time(e):
     )
 
 
-RESOLVED = "gelpump.statements.derivations.wall_time: eqn:tube_evolution across the wall"
-
-
-@states("radial-adjustment-thin", "section 3.6", RESOLVED)
+@states("radial-adjustment-thin", "section 3.6", "wall_times: tau99 (conservative, midline)")
 def thin_walls(e):
-    """The deswelling time scales as this power of 1 - ell."""
-    ell, gel = np.array([0.25, 0.5, 0.75, 0.9]), e.gels["tube"]
-    times, doubts = refined(lambda n: [wall_time(gel, each, n) for each in ell], 8)
-    printed = e.data["deswelling_map"].tau99_compared.sel(ell=0.5) / e.tube["eps"] ** 2
-    return Computed(
-        *slope(1.0 - ell, times, doubts / times),
-        float(times[1] / printed),
-        "tau_99 of the resolved wall over that of eqn:tube_model, ell = 0.5:",
+    """The deswelling time of a wall that is resolved in r scales as this power of 1 - ell."""
+    walls = e.data["wall_times"].sel(surface="conservative", place="midline")
+    walls = walls.isel(tube=np.flatnonzero(walls.varied == "ell"))
+    share = walls.tau99_uncertainty / walls.tau99
+    over = (walls.tau99 / walls.tau99_printed).values
+    measured = (
+        f"times those of eqn:tube_model, for ell = {', '.join(f'{x:g}' for x in walls.ell.values)}:"
     )
+    return Computed(*slope(1.0 - walls.ell, walls.tau99, share), over, measured)
 
 
 def falls(e, name: str, axis: int) -> Computed:

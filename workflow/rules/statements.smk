@@ -2,7 +2,9 @@
 
 CLAIM_GELS = ["ANB", "HHT"]
 CLAIM_BEADS = ["swelling", "drying", "separating"]
-BEYOND = []  # datasets, below results/data, of the statements beyond the paper
+BEYOND = [
+    Path(file).stem for file in SEPARATED if file.endswith(".nc")
+]  # datasets, below results/data, of the statements beyond the paper
 DRAWN_BEADS = {
     case
     for block in config["figures"].values()

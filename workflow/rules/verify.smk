@@ -5,6 +5,7 @@ PRODUCTS = [
     *TUBES,
     *SENSITIVITIES,
     *FIGURES,
+    *SEPARATED,
     *TABLES,
     *rules.statements.output,
     *CHECKS,

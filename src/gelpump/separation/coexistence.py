@@ -266,3 +266,24 @@ def stress_free(energy, a: float, phase: str) -> float:
     if surface_excess(energy, high, a) >= 0.0:
         return high
     return brentq(lambda phi: surface_excess(energy, phi, a), low, high, xtol=1e-15)
+
+
+def loss_temperature(model, gel, a: float, low: float, high: float) -> float:
+    """T*(a), at which a swollen surface of radius a loses its stress-free state, in K.
+
+    ``model`` is a class of ``gelpump.separation.energy``; by bisection between ``low``, where the
+    state must exist, and ``high``, where it must not: OnePhase otherwise.
+    """
+    if (
+        not surface_margin(model(gel, low), a, "swollen")
+        > 0.0
+        >= surface_margin(model(gel, high), a, "swollen")
+    ):
+        raise OnePhase(f"no loss between {low} and {high} K at a = {a:.6g}")
+    while high - low > 1e-7:
+        middle = 0.5 * (low + high)
+        if surface_margin(model(gel, middle), a, "swollen") > 0.0:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)

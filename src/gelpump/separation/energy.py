@@ -53,7 +53,7 @@ class Nonlinear:
     name = "nonlinear"
 
     def __init__(self, gel, temperature: float):
-        self.gel, self.temperature = gel, temperature
+        self.gel, self.temperature = _with_energy(gel), temperature
         self.mu = gel.shear_modulus(1.0)
 
     def radial_stress(self, phi, l_t):
@@ -91,7 +91,7 @@ class Lens:
     name = "lens"
 
     def __init__(self, gel, temperature: float):
-        self.gel, self.temperature = gel, temperature
+        self.gel, self.temperature = _with_energy(gel), temperature
         self.mu = gel.shear_modulus(1.0)
 
     def radial_stress(self, phi, l_t):
@@ -122,3 +122,10 @@ class Lens:
 
 
 ENERGIES = {"nonlinear": Nonlinear, "lens": Lens}
+
+
+def _with_energy(gel):
+    """``gel``; ValueError if it does not give the energy that separation needs."""
+    if not hasattr(gel, "osmotic_energy"):
+        raise ValueError(f"{gel.name}: no osmotic_energy: beads of such a gel stop where D < 0")
+    return gel

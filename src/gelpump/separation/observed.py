@@ -32,13 +32,19 @@ def dataset(
 ) -> "xr.Dataset":
     """Dims (t, cell), (t, face): as ``gelpump.bead.dataset``, but faces move in the dry bead too.
 
-    R, r: shape (t, face).  front: its R and r, shape (t, 2), nan while there is none.
+    R, r: shape (t, face).  front: its R and r, shape (t, 2), nan while there is none; it
+    is at the surface before its birth and at the centre after its end.
     """
     import xarray as xr
 
+    present = np.isfinite(front[:, 0])
+    born = np.maximum.accumulate(present) | (t > attributes.get("birth_t", np.inf))
+    nowhere = np.where(born[:, None], 0.0, np.column_stack([np.ones(t.size), r[:, -1]]))
+    front = np.where(present[:, None], front, nowhere)
+
     volume, dry = np.diff(r**3, axis=1), np.diff(R**3, axis=1)
     phi = dry / volume
-    core = np.where(np.isfinite(front[:, 1]), front[:, 1], 0.0) ** 3 / r[:, -1] ** 3
+    core = front[:, 1] ** 3 / r[:, -1] ** 3
     stiffness = [
         energy.stiffness(p, at_means(*faces)[1]).min() for p, *faces in zip(phi, R, r, strict=True)
     ]
@@ -65,6 +71,7 @@ def dataset(
                 "t", front[:, 0], "radius of the front in the dry bead", LENGTH
             ),
             "front_radius": variable("t", front[:, 1], "radius of the front", LENGTH),
+            "front_present": variable("t", present.astype(float), "whether there is a front"),
             "core_share": variable("t", core, "share of the bead's volume inside the front"),
             "energy": variable(
                 "t",
@@ -88,3 +95,41 @@ def dataset(
             **attributes,
         },
     )
+
+
+PASSAGES = (0.7, 0.5, 0.3)
+
+
+def passage(run: "xr.Dataset", R: float) -> float:
+    """When the front is at the dry radius R; nan if it never is."""
+    from scipy.interpolate import PchipInterpolator
+
+    there = run.front_present.values > 0
+    t, front = run.t.values[there], run.front_dry_radius.values[there]
+    if t.size < 2 or not front[-1] <= R <= front[0]:
+        return np.nan
+    return float(PchipInterpolator(-front, t)(-R))
+
+
+def with_uncertainty(run: "xr.Dataset", coarse: "xr.Dataset") -> "xr.Dataset":
+    """``run`` with when its front passes some dry radii, and by how much a ``coarse`` run, of half
+    the cells, a skin twice as thick and looser tolerances, differs: at least the error of ``run``.
+    """
+    import xarray as xr
+
+    times = [[passage(each, R) for R in PASSAGES] for each in (run, coarse)]
+    if np.isfinite(times).all():
+        run = run.assign(
+            passage_time=variable("passage", times[0], "when the front is there", TIME),
+            passage_time_uncertainty=variable(
+                "passage",
+                np.abs(np.subtract(*times)),
+                "numerical uncertainty: when the front is there",
+            ),
+        ).assign_coords(passage=variable("passage", list(PASSAGES), "dry radius", LENGTH))
+    for event in ("birth_t", "completion_t"):
+        if event in run.attrs and event in coarse.attrs:
+            doubt = abs(run.attrs[event] - coarse.attrs[event])
+            run = run.assign_attrs({f"{event}_uncertainty": float(doubt)})
+    difference = xr.DataArray(run.radius - coarse.radius.interp(t=run.t))
+    return run.assign_attrs(radius_uncertainty=float(abs(difference).max()))

@@ -200,7 +200,7 @@ class Divided:
 
     def completion(self, t: float, y: NDArray) -> float:
         """When R_f = 0: R_f^2 falls in proportion to time in the end."""
-        return t - 0.5 * y[-1] / self.parts(y)[2]
+        return float(t - 0.5 * y[-1] / self.parts(y)[2])
 
 
 def graded_core(cells: int, layer: float) -> NDArray:
@@ -371,6 +371,11 @@ def solve(
     if course.unfinished:
         surface = Surface.between(energy, other, 1.0, high, float(r[-1]))
         sides = Coexistence.between(energy, 1.0, high)
+        if r[-1] * (1 - skin) <= sides.hoop_stretch[0] * (1 + MERGED) and sides.critical:
+            raise OnePhase(
+                f"at a = {r[-1]:.6g}, where the surface loses its state, the two sides of a front "
+                "are still one: it steepens, but nothing separates"
+            )
         divided = Divided(energy, sides, surface, other == "dry", *cells)
         layer = divided.layer(float(r[-1]), float(polymer_fraction(R, r)[-1]), skin)
         divided.X = graded_core(cells[0], layer)

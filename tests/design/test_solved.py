@@ -60,7 +60,7 @@ def test_every_number_has_unit_source_and_sane_uncertainty(tube):
         assert data[key].source_equation
         if f"{key}_uncertainty" in data:
             assert 0 <= float(data[f"{key}_uncertainty"]) < 0.5 * abs(float(data[key])), key
-    assert len(dataset.lights(data)) == 8
+    assert len(dataset.lights(data)) == 9
     rows = list(dataset.csv_rows(data))
     assert {len(row) for row in rows} == {7}
     page = sheet.html(data, "<svg></svg>")

@@ -65,7 +65,7 @@ def test_every_number_has_unit_source_and_sane_uncertainty(tube):
     assert {len(row) for row in rows} == {7}
     page = sheet.html(data, "<svg></svg>")
     assert "What responds within 50 ms?" in page
-    assert page.count('class="light"') == 8
+    assert page.count('class="light"') == 9
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ RULES = "".join(file.read_text() for file in (PROJECT / "workflow/rules").glob("
 
 
 def test_every_figure_and_table_stands_in_the_map():
-    rules = set(re.findall(r"^rule ((?:fig|table)\d\w+):", RULES, re.M))
+    rules = set(re.findall(r"^(?:rule |(?:\w+_)?figure\(\s*\"?)((?:fig|table)\d\w+)", RULES, re.M))
     mapped = set(re.findall(r"^\| ((?:fig|table)\d\w+) \|", README, re.M))
     assert mapped == rules
     assert len(rules) == 16

@@ -33,16 +33,6 @@ TUBES = [(16, 10, 1e-3), (24, 16, 1e-3), (32, 20, 3e-4), (48, 30, 2e-4)]
 SWEEPS = 100  # that an iteration without Newton's may take
 
 
-class FromLast(lens.Bead):
-    """Newton's method begins at the last solution, not at what the last few predict."""
-
-    last = None
-
-    def advance(self, t, guess, alpha, history):
-        self.last = super().advance(t, guess if self.last is None else self.last, alpha, history)
-        return self.last
-
-
 class Lagged(lens.Bead):
     """Picard's iteration: geometry and surface, as coefficients, are those of the last sweep."""
 
@@ -71,19 +61,6 @@ class Lagged(lens.Bead):
                 return u
             previous = change
         raise bdf.NotConverged
-
-
-class EvenShells(lens.Shells):
-    """Shells of equal dry thickness, not thinner towards the surface."""
-
-    def __init__(self, cells: Sequence[int]):
-        super().__init__(cells)
-        R = [np.linspace(0.0, 1.0, n + 1) for n in cells]
-        self.R = np.concatenate([each[1:] for each in R])
-        self.thinnest = min(1.0 / n for n in cells)
-        self.volume = np.concatenate([np.diff(each**3) for each in R])
-        mean_square = [0.6 * np.diff(each**5) / np.diff(each**3) for each in R]
-        self.gap = np.concatenate([np.diff(S, append=1.0) for S in mean_square])
 
 
 class EvenTubes(slender.Family):
@@ -160,12 +137,6 @@ def of_beads() -> list[dict]:
     tight = [(32, tolerance) for tolerance in (1e-3, 1e-4, 3e-5, 1e-5)]
     tries = [
         ("Newton's linearisation", "Picard's", without(ours, (lens, "Bead", Lagged)), BEADS),
-        (
-            "prediction from the last steps",
-            "the last solution",
-            without(ours, (lens, "Bead", FromLast)),
-            BEADS,
-        ),
         ("third order in time", "second order", bead_of_order(2), tight[:3]),
         ("third order in time", "first order", bead_of_order(1), tight),
         (
@@ -181,23 +152,10 @@ def of_beads() -> list[dict]:
             BEADS,
         ),
     ]
-    rows = [
+    return [
         _lever(name, instead, problem.name, best, _seconds(problem, instead, run, settings))
         for name, instead, run, settings in tries
     ]
-
-    swelling = cost.with_bead_reference(Bead.of(paper(), "swelling"), tools.second_bead, 160, 1e-9)
-    even = without(ours, (lens, "Shells", EvenShells))
-    rows.append(
-        _lever(
-            "cells graded to the surface",
-            "even cells",
-            swelling.name,
-            _seconds(swelling, "as it is", ours, BEADS),
-            _seconds(swelling, "even cells", even, [(64, 3e-4), (128, 1e-4), (192, 1e-4)]),
-        )
-    )
-    return rows
 
 
 def of_tubes() -> list[dict]:
@@ -270,36 +228,14 @@ def of_jobs() -> list[dict]:
     ]
     needed = "import xarray, netCDF4, matplotlib.figure, scipy.optimize"
     every = f"{needed}, scipy.interpolate, fipy, sksundae.cvode, jinja2, docutils.core, pint, typst"
-    last = "; sys.stdout.flush(); os._exit(0)"
     start = "import os, sys; os.environ['FIPY_SOLVERS'] = 'scipy'; "
     rows += [
         _lever(
             "imports when they are needed",
             "all packages at the top",
             "start of a figure's job",
-            _python(start + "import xarray, netCDF4, matplotlib.figure" + last),
-            _python(start + every + last),
-        ),
-        _lever(
-            "the process leaves at once",
-            "the interpreter tidies up",
-            "end of a figure's job",
-            _python(start + needed + last),
-            _python(start + needed),
-        ),
-        _lever(
-            "pint is not there for xarray",
-            "xarray imports it",
-            "first values that a job reads",
-            _python(start + "sys.modules['pint'] = None; " + VALUES + last),
-            _python(start + VALUES + last),
-        ),
-        _lever(
-            "greedy scheduler",
-            "integer programme",
-            "16 jobs that do nothing",
-            forked(lambda: empty_jobs(16, "--scheduler", "greedy")).seconds,
-            forked(lambda: empty_jobs(16, "--scheduler", "ilp")).seconds,
+            _python(start + "import xarray, netCDF4, matplotlib.figure"),
+            _python(start + every),
         ),
         _lever(
             "scripts",
@@ -310,9 +246,6 @@ def of_jobs() -> list[dict]:
         ),
     ]
     return rows
-
-
-VALUES = "import xarray; xarray.DataArray([1.0, 2.0]).to_numpy()"
 
 
 def _python(code: str) -> float:

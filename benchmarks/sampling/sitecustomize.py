@@ -74,12 +74,6 @@ def _begin(folder: str) -> None:
         with open(os.path.join(folder, f"{process}.json"), "w", encoding="utf-8") as file:
             file.write(f'{json.dumps(record)[:-1]}, "stacks": {stacks}}}')
 
-    exit_now = os._exit
-
-    def leave_now(status):
-        leave()
-        exit_now(status)
-
     start_thread = threading.Thread.start
 
     def start_unasked(thread):
@@ -92,7 +86,6 @@ def _begin(folder: str) -> None:
                 signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGPROF])
 
     threading.Thread.start = start_unasked
-    os._exit = leave_now  # which calls no exit handlers
     atexit.register(leave)
     signal.signal(signal.SIGPROF, sample)
     # a thread that starts a process hands its mask on

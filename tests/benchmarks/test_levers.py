@@ -25,11 +25,9 @@ def drying():
     "patches",
     [
         [(lens, "Bead", levers.Lagged)],
-        [(lens, "Bead", levers.FromLast)],
-        [(lens, "Shells", levers.EvenShells)],
         [(finite_volume, "trusted", levers.public_terms)],
     ],
-    ids=["Picard", "no prediction", "even cells", "public terms"],
+    ids=["Picard", "public terms"],
 )
 def test_a_bead_dries_the_same_without(drying, patches):
     before = [getattr(module, name) for module, name, _ in patches]

@@ -1,6 +1,5 @@
 """What every script does around its work: log what happens, and hold its rule to its word."""
 
-import atexit
 import contextlib
 import json
 import logging
@@ -27,9 +26,6 @@ def job(snakemake):
     At the end every imported gelpump module must be among the rule's inputs: otherwise an edit of
     that module would not rerun the rule.  RuntimeError if one is not.
     """
-    leave = Leave()
-    # xarray would import pint, to see that no array here is one of its quantities
-    sys.modules.setdefault("pint", None)
     with (
         open(snakemake.log[0], "w", encoding="utf-8") as log,
         contextlib.redirect_stdout(log),
@@ -52,24 +48,6 @@ def job(snakemake):
             raise
         finally:
             watch.end()
-    leave.at_once = bool(snakemake.output)  # `verify` and its kind have a verdict to give yet
-
-
-class Leave:
-    """Ends the interpreter behind its last exit handler, if ``at_once``, without tidying up.
-
-    All files are closed by then; to free each object of a dozen packages takes a fifth of a second.
-    """
-
-    def __init__(self):
-        self.at_once = False
-        atexit.register(self)  # the first to be registered is the last to be called
-
-    def __call__(self):
-        if self.at_once:
-            sys.stdout.flush()
-            sys.stderr.flush()
-            os._exit(0)
 
 
 def _end_with(scheduler, watch):

@@ -48,9 +48,6 @@ class Gel(Protocol):
     def diffusivity(self, phi: ArrayLike, T: ArrayLike) -> NDArray:
         """(mu_l/k) D, whatever the reference phi_00."""
 
-    def diffusivity_slope(self, phi: ArrayLike, T: ArrayLike) -> NDArray:
-        """(mu_l/k) dD/dphi."""
-
     def flux_potential(self, phi: ArrayLike, T: ArrayLike) -> NDArray:
         """Integral of (mu_l/k) D over the polymer fraction, from 0 to phi."""
 

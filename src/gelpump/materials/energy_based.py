@@ -88,13 +88,6 @@ class EnergyBasedGel(ExplicitGel):
         elastic = (phi + np.cbrt(phi)) / self.Omega
         return elastic + phi**2 * (1 / (1 - phi) - 2 * (a - b) - 6 * phi * b)
 
-    def diffusivity_slope(self, phi: ArrayLike, T: ArrayLike) -> NDArray:
-        """(mu_l/k) dD/dphi."""
-        phi = fraction(phi)
-        a, b = self._interaction(T)
-        elastic = (1 + np.cbrt(phi) ** -2 / 3) / self.Omega
-        return elastic + phi * ((2 - phi) / (1 - phi) ** 2 - 4 * (a - b) - 18 * phi * b)
-
     def flux_potential(self, phi: ArrayLike, T: ArrayLike) -> NDArray:
         """Integral of (mu_l/k) D from 0 to phi, so that D grad(phi) = grad(flux potential)."""
         phi = fraction(phi)

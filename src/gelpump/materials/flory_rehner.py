@@ -126,19 +126,6 @@ class FloryRehnerGel(ExplicitGel):
         elastic = (self.kappa * phi + np.cbrt(phi)) / self.Omega
         return elastic + self._ionic_modulus(phi) + phi**2 * self._mixing(phi, T)
 
-    def diffusivity_slope(self, phi: ArrayLike, T: ArrayLike) -> NDArray:
-        """(mu_l/k) dD/dphi."""
-        phi = fraction(phi)
-        c_1, c_2, c_3 = self._coefficients(T)
-        elastic = (self.kappa + np.cbrt(phi) ** -2 / 3) / self.Omega
-        q, S = self.charge * phi, self._ionic_strength(phi)
-        ionic = self.charge * (2 * q / S - (q / S) ** 3) if self.charge else 0.0
-        return (
-            elastic
-            + ionic
-            + phi * ((2 - phi) / (1 - phi) ** 2 - 4 * c_1 - 9 * c_2 * phi - 16 * c_3 * phi**2)
-        )
-
     def flux_potential(self, phi: ArrayLike, T: ArrayLike) -> NDArray:
         """Integral of (mu_l/k) D from 0 to phi."""
         phi = fraction(phi)

@@ -65,10 +65,6 @@ class PiecewiseLinearGel:
         Phi = _fraction(Phi)
         return self._stiffness(theta) * Phi + 4 / 3 * self.M * np.cbrt(Phi)
 
-    def diffusivity_slope(self, Phi: ArrayLike, theta: ArrayLike) -> NDArray:
-        """dD/dPhi = Pi_0/Phi_0 + (4 M/9) Phi^{-2/3}."""
-        return self._stiffness(theta) + 4 / 9 * self.M * np.cbrt(_fraction(Phi)) ** -2
-
     def flux_potential(self, Phi: ArrayLike, theta: ArrayLike) -> NDArray:
         """Integral_0^Phi D = Pi_0 Phi^2/(2 Phi_0) + M Phi^{4/3}."""
         Phi = _fraction(Phi)

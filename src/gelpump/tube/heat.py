@@ -9,8 +9,8 @@ front behind which T > T_C. In the limit of a large Lewis number heat spreads by
     theta = 2 erfc( Z / (2 sqrt(Le tau)) ) - 1                       (eqn:temp_field_sol)
     Z_C   = 2 erfcinv(1/2) sqrt(Le tau)                              (section 3.5)
 
-Another boundary history is another object with `front`, `front_speed` and `theta`; the tube solver
-asks for `front` alone, the others are for tests and for who wants to know the temperature.
+Another boundary history is another object with `front` and `front_speed`; the tube solver asks
+for the front alone.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import erfc, erfcinv
+from scipy.special import erfcinv
 
 FRONT_CONSTANT = 2 * erfcinv(0.5)  # Z_C / sqrt(Le tau)
 
@@ -31,9 +31,6 @@ class Heat(Protocol):
 
     def front_speed(self, tau: ArrayLike) -> NDArray:
         """dZ_C/dtau."""
-
-    def theta(self, Z: ArrayLike, tau: ArrayLike) -> NDArray:
-        """(T - T_C)/Delta T."""
 
 
 @dataclass(frozen=True)
@@ -56,14 +53,3 @@ class StepHeating:
     def front_speed(self, tau: ArrayLike) -> NDArray:
         """Speed dZ_C/dtau."""
         return 0.5 * FRONT_CONSTANT * np.sqrt(self.Le / np.asarray(tau, float))
-
-    def theta(self, Z: ArrayLike, tau: ArrayLike) -> NDArray:
-        """Temperature (T - T_C)/Delta T."""
-        return 2 * erfc(np.asarray(Z) / (2 * np.sqrt(self.Le * np.asarray(tau, float)))) - 1
-
-
-def lewis_number(
-    thermal_diffusivity: float | NDArray, compositional_diffusivity: float | NDArray
-) -> NDArray:
-    """Le = kappa / D, equally the poroelastic time over the thermal time of one length."""
-    return thermal_diffusivity / compositional_diffusivity

@@ -24,17 +24,11 @@ def at(t: float, end: float) -> None:
     _reached = Reached(t, end)
 
 
-def file_of(log: str | Path) -> Path:
-    """Where the progress of the job with this log file is written down."""
-    log = Path(log)
-    return log.with_name(f".{log.stem}.progress")
-
-
 class Watch:
-    """Writes down how far the solves of this process are; ``end`` removes it."""
+    """Writes how far the solves of this process are beside their log; ``end`` removes it."""
 
     def __init__(self, log: str | Path):
-        self.file = file_of(log)
+        self.file = Path(log).with_name(f".{Path(log).stem}.progress")
         self.written: Reached | None = None
         self.ended = False
 
@@ -49,12 +43,3 @@ class Watch:
         """Leave nothing behind."""
         self.ended = True
         self.file.unlink(missing_ok=True)
-
-
-def read(log: str | Path) -> Reached | None:
-    """What was written last for the job with this log file; None if nothing was."""
-    try:
-        t, end = map(float, file_of(log).read_text(encoding="ascii").split())
-    except (OSError, ValueError):  # not there, or being written
-        return None
-    return Reached(t, end)

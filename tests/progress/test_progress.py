@@ -12,6 +12,7 @@ import pytest
 
 from gelpump import bdf, progress
 from snakemake_logger_plugin_gelpump.build import Build, duration
+from snakemake_logger_plugin_gelpump.screen import reached
 
 SNAKEFILE = """
 rule all:
@@ -38,7 +39,7 @@ rule look:
 def project(tmp_path):
     (tmp_path / "Snakefile").write_text(SNAKEFILE)
     (tmp_path / "profiles/default").mkdir(parents=True)
-    profile = "logger: gelpump\nshow-failed-logs: true\nscheduler: greedy\n"
+    profile = "logger: gelpump\nshow-failed-logs: true\n"
     (tmp_path / "profiles/default/config.yaml").write_text(profile)
     return tmp_path
 
@@ -152,7 +153,7 @@ def test_quiet_is_quiet(project, quiet):
 def test_a_solve_says_how_far_it_is(tmp_path):
     log = tmp_path / "solve.log"
     watch = progress.Watch(log)
-    assert progress.read(log) is None
+    assert reached(log) is None
     seen = []
     for step in bdf.integrate(
         lambda t, guess, alpha, history: -history / (alpha + 1.0),  # dy/dt = -y
@@ -164,7 +165,7 @@ def test_a_solve_says_how_far_it_is(tmp_path):
         error_norm=lambda y, difference: float(np.abs(difference).max()),
     ):
         watch.write()
-        seen.append(progress.read(log))
+        seen.append(reached(log))
         assert seen[-1] == (step.time, 2.0)
     assert seen[-1] == (2.0, 2.0)
     watch.end()

@@ -2,6 +2,7 @@
 
 import time
 from contextlib import contextmanager
+from pathlib import Path
 
 from rich.console import Console, Group
 from rich.live import Live
@@ -9,7 +10,6 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
-from gelpump import progress
 from snakemake_logger_plugin_gelpump.build import Build, Job, duration
 
 REDRAWN = 4  # times a second
@@ -93,7 +93,18 @@ def _bar(done, total, width):
 
 def _solve(job):
     """Where the solve is in its own time."""
-    reached = progress.read(job.log) if job.log else None
-    if reached is None:
+    found = reached(job.log) if job.log else None
+    if found is None:
         return "", ""
-    return _bar(*reached, BAR), Text(f"t = {reached.t:.3g} of {reached.end:.3g}")
+    return _bar(*found, BAR), Text("t = {:.3g} of {:.3g}".format(*found))
+
+
+def reached(log: str | Path) -> tuple[float, float] | None:
+    """How far the job with this log file is, and where it ends; None if it does not tell."""
+    log = Path(log)
+    try:
+        text = log.with_name(f".{log.stem}.progress").read_text(encoding="ascii")
+        now, end = map(float, text.split())
+    except (OSError, ValueError):  # not there, or being written
+        return None
+    return now, end

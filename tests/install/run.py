@@ -1,0 +1,69 @@
+"""The library as others install it: wheel and sdist, in empty environments, without Snakemake.
+
+``python tests/install/run.py`` builds both, installs the wheel with the newest versions allowed,
+the sdist with the oldest (oldest.txt), and runs smoke.py in each from an empty folder; so does a
+wheel of the logger plugin, which is a package of its own.
+"""
+
+import subprocess
+import sys
+import tempfile
+import venv
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+PROJECT = HERE.parents[1]
+PLUGIN = PROJECT / "plugins/snakemake-logger-plugin-gelpump"
+
+
+def run(*command: str | Path, cwd: Path) -> str:
+    """Standard output of a command; SystemExit with all it said if it fails."""
+    result = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+    if result.returncode:
+        raise SystemExit(f"{' '.join(map(str, command))}\n{result.stdout}{result.stderr}")
+    return result.stdout
+
+
+def environment(folder: Path) -> Path:
+    """The interpreter of a new, empty environment."""
+    venv.create(folder, with_pip=True)
+    return next(folder.glob("*/python*"))
+
+
+def built(folder: Path) -> tuple[Path, Path, Path]:
+    """Wheel and sdist of the library, and a wheel of the plugin."""
+    python = environment(folder / "build")
+    run(python, "-m", "pip", "install", "-q", "build", cwd=folder)
+    dist = folder / "dist"
+    run(python, "-m", "build", "--outdir", dist, PROJECT, cwd=folder)
+    run(python, "-m", "build", "--wheel", "--outdir", dist, PLUGIN, cwd=folder)
+    wheel, sdist, plugin = (
+        next(dist.glob(each)) for each in ("gelpump*.whl", "gelpump*.gz", "snakemake*.whl")
+    )
+    return wheel, sdist, plugin
+
+
+def smoke(folder: Path, name: str, *what: str | Path) -> str:
+    """What smoke.py says where ``what`` was installed."""
+    python = environment(folder / name)
+    run(python, "-m", "pip", "install", "-q", *what, cwd=folder)
+    empty = folder / f"{name}-empty"
+    empty.mkdir()
+    return f"{name}: {run(python, HERE / 'smoke.py', cwd=empty).strip()}"
+
+
+def main() -> None:
+    """Build, install, try."""
+    with tempfile.TemporaryDirectory(prefix="install-") as scratch:
+        folder = Path(scratch)
+        wheel, sdist, plugin = built(folder)
+        print(smoke(folder, "newest", wheel), flush=True)
+        print(smoke(folder, "oldest", sdist, "-c", HERE / "oldest.txt"), flush=True)
+        python = environment(folder / "plugin")
+        run(python, "-m", "pip", "install", "-q", plugin, cwd=folder)
+        run(python, "-c", "import snakemake_logger_plugin_gelpump.screen", cwd=folder)
+        print(f"plugin: {plugin.name}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

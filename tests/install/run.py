@@ -5,6 +5,7 @@ the sdist with the oldest (oldest.txt), and runs smoke.py in each from an empty 
 wheel of the logger plugin, which is a package of its own.
 """
 
+import os
 import subprocess
 import sys
 import tempfile
@@ -27,7 +28,7 @@ def run(*command: str | Path, cwd: Path) -> str:
 def environment(folder: Path) -> Path:
     """The interpreter of a new, empty environment."""
     venv.create(folder, with_pip=True)
-    return next(folder.glob("*/python*"))
+    return folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 
 
 def built(folder: Path) -> tuple[Path, Path, Path]:

@@ -10,7 +10,7 @@ with job(snakemake):
 
     from gelpump.integrity import reference
     from gelpump.integrity.build import Build
-    from gelpump.text import write_json
+    from gelpump.text import write_text
 
     params = snakemake.params
     try:
@@ -34,7 +34,7 @@ with job(snakemake):
         "numbers_digest": build.manifest["numbers_digest"],
         "shown_digest": build.shown_digest,
     }
-    write_json({**digests, "values": new, "figures": shown}, values)
+    write_text(reference.as_text({**digests, "values": new, "figures": shown}), values)
     count = len(new) + len(shown)
 
 print(*lines, f"{count} numbers, {len(lines)} of them changed: {values}", sep="\n", flush=True)

@@ -11,6 +11,8 @@ uncertainty, which comes from
 Two builds that are both within their uncertainty differ by at most twice that.
 """
 
+import json
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -91,6 +93,12 @@ def _entry(value: float, tolerance: float) -> dict[str, float]:
         "value": float(f"{value:.12g}"),
         "tolerance": float(f"{tolerance + ROUND_OFF * abs(value):.2g}"),
     }
+
+
+def as_text(record: Mapping[str, Any]) -> str:
+    """JSON with one number, its value and tolerance, a line."""
+    text = json.dumps(record, indent=1, allow_nan=False, ensure_ascii=False)
+    return re.sub(r'{\n +("value": .*)\n +("tolerance": .*)\n +}', r"{\1 \2}", text) + "\n"
 
 
 def compared(reference: Values, here: Values) -> tuple[list[Row], list[Problem]]:

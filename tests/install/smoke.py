@@ -18,7 +18,8 @@ from gelpump.tube import slender
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.tubes import Tubes
 
-for absent in ("snakemake", "matplotlib", "typst", "pint", "SALib", "jinja2"):
+# matplotlib comes with FiPy
+for absent in ("snakemake", "typst", "pint", "SALib", "jinja2"):
     assert importlib.util.find_spec(absent) is None, f"{absent} is not for the library"
 assert Path(gelpump.__file__).is_relative_to(sys.prefix), gelpump.__file__
 

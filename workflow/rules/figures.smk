@@ -139,30 +139,33 @@ FIGURES = expand(
     "results/figures/{figure}.{suffix}", figure=DRAWN, suffix=["pdf", "png", "svg", "csv"]
 )
 
-for name, drawn in DRAWN.items():
+for FIGURE, drawn in DRAWN.items():
 
     rule:
         name:
-            name
+            FIGURE
         input:
             **drawn["data"],
-            src=modules(name),
+            src=modules(FIGURE),
         output:
-            pdf=f"results/figures/{name}.pdf",
-            csv=f"results/figures/{name}.csv",
-            svg=f"results/figures/{name}.svg",
+            pdf=f"results/figures/{FIGURE}.pdf",
+            csv=f"results/figures/{FIGURE}.csv",
+            svg=f"results/figures/{FIGURE}.svg",
             png=report(
-                f"results/figures/{name}.png",
-                caption=f"../report/{name}.rst",
+                f"results/figures/{FIGURE}.png",
+                caption=f"../report/{FIGURE}.rst",
                 category="Figures",
                 subcategory=drawn["group"],
                 labels=drawn["labels"],
             ),
         log:
-            f"results/logs/{name}.log",
+            f"results/logs/{FIGURE}.log",
         benchmark:
-            f"results/benchmarks/{name}.tsv"
+            f"results/benchmarks/{FIGURE}.tsv"
         params:
             **drawn["params"],
         script:
-            f"../scripts/{name}.py"
+            f"../scripts/{FIGURE or rule}.py"
+
+
+FIGURE = None  # the line of a script is read again when a job runs, which knows its rule

@@ -69,6 +69,9 @@ class Cut:
         """phi_s."""
         return self.dry_share / radius**3
 
+    def require(self, radius):
+        """Every radius has such a surface."""
+
 
 class CutBead(lens.Bead):
     """A bead with such a surface: Psi_s = phi_s^2/2, so that dPsi_s/du = -phi_s^2/u."""

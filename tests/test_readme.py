@@ -30,7 +30,7 @@ def test_the_example_runs():
     example = re.search(r"```python\n(.*?)```", README, re.S)[1]
     scope = {}
     exec(example.replace("tolerance=1e-4", "tolerance=1e-3"), scope)
-    radius = scope["bead"].radius.values
+    radius = scope["run"].radius.values
     assert abs(radius[0] - scope["phi"] ** (-1 / 3)) < 1e-12
     assert abs(radius[-1] - 2.596) < 5e-3
 

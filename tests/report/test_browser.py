@@ -120,11 +120,27 @@ def test_the_tube_shows_the_numbers_of_its_dataset(show, built):
         tau = float(pulse.tau[j])
         if np.any(np.isclose(lumen.tau, tau)):
             same = lumen.sel(tau=tau, method="nearest").isel(ell=i)
-            for form in ("printed", "continuous"):
-                told = number(shown(browser, "explore-tube", f"V_{form}_front"))
-                assert told == pytest.approx(float(same[f"V_front_{form}"]), rel=6e-4)
+            told = number(shown(browser, "explore-tube", "V_front"))
+            assert told == pytest.approx(float(same.V_front_printed), rel=6e-4)
         pictures.add(browser.execute_script(PICTURE, '#explore-tube [data-canvas="section"]'))
     assert len(pictures) == 3
+
+
+def test_the_tube_shows_each_closure(show, built):
+    """The same tube at the same time, as near as it was stored, with its own numbers."""
+    browser = show()
+    balance = netcdf.read(built.path / "results/data/pump_balance.nc")
+    conserving = netcdf.read(built.path / "results/data/pump_pulse.nc")
+    choice = browser.find_element("css selector", '#explore-tube [data-control="closure"]')
+    for closure in ("balanced", "conservative"):
+        choice.send_keys(closure)
+        here = conserving.sel(closure=closure).sel(ell=0.5, tau=0.02, method="nearest")
+        told = number(shown(browser, "explore-tube", "Phi1_front"))
+        assert told == pytest.approx(float(here.Phi1_front), rel=6e-4)
+        far = balance.V_far.sel(closure=closure).sel(ell=0.5, tau=0.02, method="nearest")
+        assert number(shown(browser, "explore-tube", "V_far")) == pytest.approx(
+            float(far), rel=3e-2
+        )
 
 
 def test_the_front_can_be_seen_close_up(show):

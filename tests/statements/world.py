@@ -95,7 +95,7 @@ def tubes():
     )
     refined = solved(
         "ell tau", A=1.0, Phi1_front=1.5, radial_to_axial_velocity=1.0, pulse_flux=1.0,
-        V_front_printed=1.0, V_front_matched=1.0, V_front_continuous_level=1.0, V_far_printed=1.0,
+        V_front_printed=1.0, V_front_matched=1.0, V_front_moving=1.0, V_far_printed=1.0,
     )  # fmt: skip
     refined["Phi1_difference"] = (("ell", "tau"), 1e-5 * one)
     fit = solved("ell", A=30.0 / THIN, Phi1_front=1.5)
@@ -107,7 +107,7 @@ def tubes():
         fit[name] = (("ell", "tau"), value * one)
     lumen = solved(
         "ell tau", V_front_printed=2.0 / column, V_front_matched=2.0 / column, V_far_printed=1.0,
-        V_front_continuous_level=2.0 / column, V_front_tanh=2.0 / column, V_far_tanh=1.0,
+        V_front_moving=2.0 / column, V_front_tanh=2.0 / column, V_far_tanh=1.0,
         pulse_flux=3.0, Z_highest_printed=0.0,
     )  # fmt: skip
     for name, value in (("V_max_plotted", 1.472), ("V_far_plotted", 0.255), ("V_max", 5.0)):

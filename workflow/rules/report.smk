@@ -18,6 +18,7 @@ rule report_page:
         ],
         pulse=f"{DATA}/tube_pulse.nc",
         fit=f"{DATA}/front_fit.nc",
+        conserving=f"{DATA}/pump_pulse.nc",
         materials=expand(f"{DATA}/materials_{{gel}}.nc", gel=LINEAR_IN_T),
         drawings=[*FIGURES, *TABLES],
         captions=[told["caption"] for told in [*TOLD_FIGURES.values(), *TOLD_TABLES.values()]],

@@ -2,9 +2,12 @@
 
 CLAIM_GELS = ["ANB", "HHT"]
 CLAIM_BEADS = ["swelling", "drying", "separating"]
+# datasets, below results/data, of the statements beyond the paper
 BEYOND = [
-    Path(file).stem for file in SEPARATED if file.endswith(".nc")
-]  # datasets, below results/data, of the statements beyond the paper
+    "pump_balance",
+    "wall_times",
+    *(Path(file).stem for file in SEPARATED if file.endswith(".nc")),
+]
 DRAWN_BEADS = {
     case
     for block in config["figures"].values()

@@ -14,7 +14,10 @@ with job(snakemake) as provenance:
     heat = StepHeating(params.tube["Le"])
     tubes = Tubes(params.pulse["ell"], params.tube["eps"], gel.M, gel.Pi_ratio, gel.Phi_inf)
     tau = production.family_tau(params.pulse)
-    pulses = pump.closures(tubes, heat, tau, params.numerics)
+    pulses, coarse = (
+        pump.closures(tubes, heat, tau, numerics)
+        for numerics in (params.numerics, pump.coarser(params.numerics))
+    )
     given = {
         "tube": params.tube,
         "gel": params.gel,
@@ -23,7 +26,11 @@ with job(snakemake) as provenance:
         "numerics": params.numerics,
     }
     for dataset, path, title in (
-        (pump.balance(pulses, heat), output.balance, "the water of collapsing tubes, by closure"),
+        (
+            pump.balance(pulses, heat, coarse),
+            output.balance,
+            "the water of collapsing tubes, by closure",
+        ),
         (pump.joined(pulses), output.pulse, "tubes that collapse behind a pulse, water conserved"),
         (
             pump.response(gel, params.tube, params.response, params.numerics),

@@ -14,7 +14,9 @@ with job(snakemake) as provenance:
     content = gather(params.config, params.figures, params.tables, provenance.inputs)
     cases = params.config["beads"]
     explorers = {
-        "tube": embedded.tubes(netcdf.read(files.pulse), netcdf.read(files.fit)),
+        "tube": embedded.tubes(
+            netcdf.read(files.pulse), netcdf.read(files.fit), netcdf.read(files.conserving)
+        ),
         "beads": embedded.beads(
             {
                 case: {

@@ -30,6 +30,7 @@ def telling(content: Content, config: Mapping[str, Any], seconds: Mapping[str, f
         "abstract": [runs(from_plain(text)) for text in _abstract(content)],
         "extent": [_extent(figure, ledger) for figure in content.figures],
         "figures": [_figure(figure, ledger) for figure in content.figures],
+        "beyond_figures": [_figure(figure, ledger) for figure in content.beyond_figures],
         "verification_figure": _figure(content.verification_figure, ledger),
         "tables": [_table(table) for table in content.tables],
         "foremost": [_disagreement(*ledger[name]) for name in FOREMOST if name in ledger],
@@ -162,6 +163,7 @@ def _figure(figure, ledger):
     return {
         "name": figure.name,
         "number": figure.number,
+        "label": figure.label,
         "title": figure.title,
         "alt": figure.alt,
         "caption": [caption(paragraph) for paragraph in figure.caption],

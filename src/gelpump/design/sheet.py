@@ -60,7 +60,7 @@ def number_rows(data: xr.Dataset) -> list[tuple[str, str, str, str]]:
 
 def notes(data: xr.Dataset) -> list[str]:
     """What has to be said beside the numbers."""
-    keys = ("gel_warnings", "lumen_note", "gel_note")
+    keys = ("gel_warnings", "pump_note", "gel_note")
     found = [data.attrs[key] for key in keys if key in data.attrs]
     if "wanted_response_time" in data and "response_time" not in data:
         why = data.attrs.get("stopped") or "it is slower than we waited for"
@@ -72,10 +72,17 @@ def notes(data: xr.Dataset) -> list[str]:
         said = "Ranges are of one parameter at a time, the others as designed"
         if data.attrs["kind"] == "tube":
             said += (
-                "; closeness and the lumen's pressure and flow are judged by building the change"
+                "; closeness and the lumen's pressure and flow are judged by building the change. "
+                "Their time is that printed: resolved in r, the wall takes "
+                f"{_slower(data, 'resolved')} times as long ({_slower(data, 'forceless')} times "
+                "if no force acts on its surfaces)"
             )
         found.append(f"{said}.")
     return found
+
+
+def _slower(data, which):
+    return units.told(float(data[f"response_time_{which}"] / data.response_time), 2)
 
 
 def light_rows(data: xr.Dataset) -> list[LightRow]:

@@ -1,14 +1,16 @@
 """A tube solved on FiPy, in SI units: sections 3.5 and 3.6 until the front is at Z_C = 1.
 
 By then it has travelled the heated length. Polymer fraction, front and flow are scaled back with L,
-a_1 and the poroelastic time. The lumen's flow is given as printed in eqn:lumen and in the form that
-conserves water (`gelpump.tube.lumen`); on either side of z = 0 the flow is the same.
+a_1 and the poroelastic time. What the tube pumps is that of the one that conserves water
+(`gelpump.tube.closure`, `gelpump.tube.pump`), and beside it V of eqn:lumen as printed; on either
+side of z = 0 the flow is the same. To the numerical uncertainty of what is pumped comes how much it
+changes if the wall's surface bears no force. The response is also that of the wall resolved in r
+(`gelpump.tube.wall`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -20,11 +22,15 @@ from gelpump.design.refined import levels, variable
 from gelpump.design.result import Result
 from gelpump.uncertainty import convergence_index
 
-if TYPE_CHECKING:
-    from gelpump.tube.wall_flow import Wall
-
 TIMES = 48
-FORMS = ("printed", "continuous")
+FORMS = ("printed", "conserving")
+PUMPED_LINES = {  # what is pumped, by its name in `gelpump.tube.pump`
+    "pumped_volume_conserving": "pumped_station",
+    "pumped_end_volume": "pumped_end",
+    "collapse_volume": "collapse_station",
+    "from_wall_volume": "inner",
+}
+PUMPED = [f"final_{name}" for name in PUMPED_LINES]
 
 
 def solve_tube(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Result]]:
@@ -34,72 +40,80 @@ def solve_tube(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Resu
 
     Le = lewis_number(design)
     tau = (np.arange(1, TIMES + 1) / TIMES) ** 2 / (FRONT_CONSTANT**2 * Le)
-    runs = []
-    for cells, tolerance in levels(numerics):
-        pulse = solve(
-            tubes(design),
-            StepHeating(Le),
-            tau,
-            cells=tuple(cells),
-            tolerance=tolerance,
-            reach=numerics["reach"],
-        )
-        runs.append(in_si(design, pulse))
-    measured = [_tube_numbers(design, run) for run in runs]
+
+    def run(cells, tolerance, closure):
+        given = {"cells": tuple(cells), "tolerance": tolerance, "reach": numerics["reach"]}
+        return solve(tubes(design), StepHeating(Le), tau, closure=closure, **given)
+
+    def device(cells, tolerance, conserving="conservative"):
+        printed = run(cells, tolerance, "printed")
+        return in_si(design, printed, run(cells, tolerance, conserving))
+
+    runs = [device(*level) for level in levels(numerics)]
+    measured = [_tube_numbers(run) for run in runs]
+    middle = list(levels(numerics))[1]
+    forceless = {each.key: each.value for each in _tube_numbers(device(*middle, "balanced"))}
     found = []
     for coarse, here, fine in zip(*measured, strict=True):
         error = float(convergence_index(coarse.value, here.value, fine.value))
+        if here.key in PUMPED:
+            error += abs(forceless[here.key] - here.value)
         found.append(Result(**{**vars(here), "uncertainty": error}))
-    return runs[1].assign_attrs(lumen_note=lumen_note(runs[1])), found
+    found += wall_results(design)
+    return runs[1].assign_attrs(pump_note=pump_note(design, found)), found
 
 
-def far_parts(wall: Wall) -> dict[str, tuple[float, float]]:
-    """V far ahead, at the last time: what the wall sheds into the lumen behind the front, and what
-    its source does ahead of it, in units of `gelpump.tube.lumen`; both forms, without the tube's
-    own motion, which only the continuous one has."""
-    from gelpump.tube.wall_flow import lumen_share
+def wall_results(design: Design) -> list[Result]:
+    """t_99 of the wall resolved in r, on its midline."""
+    from gelpump.tube.wall import deswelling_times
 
-    ell = float(np.ravel(wall.ell)[0])
-    gain = 1 + lumen_share(ell) * (1 - ell**2) / ell**2
-    sources = {
-        "printed": wall.integral(wall.F * np.cbrt(wall.Phi1)) / 2,
-        "continuous": gain * wall.Phi1_face[:, -1:] ** (2 / 3)
-        * wall.integral(wall.F * wall.Phi1 ** (-5 / 3)),
-    }  # fmt: skip
-    front = int(np.argmax(sources["printed"][-1]))
-    return {
-        form: (float(V[-1, front]), float(V[-1, -1] - V[-1, front])) for form, V in sources.items()
+    second = units.si(scales(design)["time"], "s")
+    times, errors = deswelling_times(tubes(design))
+    texts = {
+        "response_time_resolved": "response time, wall resolved in r, Φ = Φ₀ on its surfaces",
+        "response_time_forceless": "response time, wall resolved in r, no force on its surfaces",
     }
-
-
-def lumen_note(data: xr.Dataset) -> str:
-    """Why the two forms of the lumen's flow differ far ahead, with the numbers of this tube."""
-    last, said = data.isel(t=-1), {}
-    for form in FORMS:
-        behind, ahead = (1e3 * float(last[f"far_{part}_{form}"]) for part in ("behind", "ahead"))
-        volume = float(last[f"pumped_volume_{form}"])
-        number, unit = units.shown(abs(volume), "m^3")
-        said[form] = (
-            f"{units.told(behind)} {'−' if ahead < 0 else '+'} {units.told(abs(ahead))} mm/s, and "
-            f"{units.told(number)} {units.readable(unit)} go {'out' if volume > 0 else 'in'}"
+    sources = "section 3.4, eqn:b1bc", "gelpump.tube.wall"
+    return [
+        Result(key, text, "t_99", second * float(time), "s", source, second * float(error))
+        for (key, text), source, time, error in zip(
+            texts.items(), sources, times[:, 0, 0], errors[:, 0, 0], strict=True
         )
-    printed, continuous = (float(last[f"flow_far_{form}"]) for form in FORMS)
-    verdict = (
-        "they differ in sign here, so the model does not decide which way water is pumped"
-        if printed * continuous < 0
-        else "they agree in sign here"
-    )
+    ]
+
+
+def pump_note(design: Design, found: list[Result]) -> str:
+    """Which way water is pumped and how much, where it comes from, and what eqn:lumen says."""
+    from gelpump.tube.pump import per_advance
+
+    numbers = {each.key.removeprefix("final_"): each for each in found}
+    pumped = numbers["pumped_volume_conserving"]
+
+    def said(volume):
+        number, unit = units.shown(abs(volume), "m^3")
+        return f"{units.told(number)} {units.readable(unit)}"
+
+    tube = tubes(design)
+    a_1, L = (units.si(scales(design)[key], "m") for key in ("across", "along"))
+    geometry = per_advance(float(tube.ell), float(tube.Phi_inf))["pumped_station"]
+    away = pumped.value > 0
     return (
-        "Far ahead, the lumen's flow is what the wall sheds into it behind the front less what the "
-        "wall takes up ahead of it. As printed (eqn:lumen; both weighed by Φ₁ to the power 1/3) "
-        f"that is {said['printed']} in the pulse; with water conserved at the lumen's moving edge "
-        f"(by Φ₁ to the power −5/3) {said['continuous']}. Both are given: {verdict}."
+        f"Water is pumped {'away from' if away else 'towards'} the heated end: "
+        f"{said(pumped.value)} (± {said(pumped.uncertainty)}) go "
+        f"{'out' if away else 'in'} past a fixed station, "
+        f"{said(numbers['collapse_volume'].value)} by the lumen’s collapse and "
+        f"{said(numbers['from_wall_volume'].value)} out of the wall; by geometry alone "
+        f"{said(np.pi * a_1**2 * L * geometry)}. ± holds what a surface without force would "
+        "change. As printed (eqn:lumen; water is not conserved) "
+        f"{said(numbers['pumped_volume_printed'].value)} would go "
+        f"{'out' if numbers['pumped_volume_printed'].value > 0 else 'in'}."
     )
 
 
-def in_si(design: Design, pulse: xr.Dataset) -> xr.Dataset:
-    """A dataset of `gelpump.tube.slender` with one tube, in SI units."""
-    from gelpump.tube import lumen
+def in_si(design: Design, pulse: xr.Dataset, conserving: xr.Dataset) -> xr.Dataset:
+    """A dataset of `gelpump.tube.slender` with one tube, in SI units; the same tube, conserving
+    water, for what it pumps."""
+    from gelpump.tube import lumen, pump
     from gelpump.tube.budget import water_budget
     from gelpump.tube.front import sharpness
     from gelpump.tube.wall_flow import Wall
@@ -150,20 +164,13 @@ def in_si(design: Design, pulse: xr.Dataset) -> xr.Dataset:
         data["polymer_fraction"] = variable(
             ("t", "cell"), design.material.phi_00 * Phi, "1", "polymer volume fraction"
         )
-    for form, parts in far_parts(wall).items():
-        for part, value in zip(("behind", "ahead"), parts, strict=True):
-            data[f"far_{part}_{form}"] = variable(
-                (),
-                L / time * value,
-                "m/s",
-                f"velocity far ahead at the last time from the wall's water {part} "
-                f"{'the' if part == 'behind' else 'of the'} front, {lumen.MEANING[form]}",
-            )
     t = time * one.tau.values
     places = {"front": "at the front", "far": "far ahead"}
+    walls = {"printed": wall, "conserving": Wall.of(conserving.isel(ell=0))}
+    velocities = {"printed": lumen.velocity_printed, "conserving": lumen.velocity_conserving}
     for form in FORMS:
-        V = L / time * lumen.VELOCITIES[form](wall)
-        area = np.pi * (ell * a_1) ** 2 * wall.Phi1_face ** (-2 / 3)
+        V = L / time * velocities[form](walls[form])
+        area = np.pi * (ell * a_1) ** 2 * walls[form].Phi1_face ** (-2 / 3)
         said = lumen.MEANING[form]
         data[f"lumen_velocity_{form}"] = variable(
             ("t", "face"), V, "m/s", f"axial velocity in the lumen, {said}"
@@ -175,12 +182,22 @@ def in_si(design: Design, pulse: xr.Dataset) -> xr.Dataset:
                 "m^3/s",
                 f"flow of water along the lumen {places[where]}, {said}",
             )
-        data[f"pumped_volume_{form}"] = variable(
-            "t",
-            _pumped(t, data[f"flow_far_{form}"][1]),
-            "m^3",
-            f"water pumped far ahead since t = 0 on one side of z = 0, {said}",
-        )
+    data["z_face_conserving"] = variable(
+        ("t", "face"),
+        L * conserving.Z_face.values[0],
+        "m",
+        f"axial position of the faces {lumen.MEANING['conserving']}",
+    )
+    data["pumped_volume_printed"] = variable(
+        "t",
+        _pumped(t, data["flow_far_printed"][1]),
+        "m^3",
+        f"water pumped far ahead since t = 0 on one side of z = 0, {lumen.MEANING['printed']}",
+    )
+    volumes = pump.volumes(conserving)
+    for name, key in PUMPED_LINES.items():
+        text = pump.LINES[key]
+        data[name] = variable("t", a_1**2 * L * volumes[key][0], "m^3", f"{text}, on one side")
     return xr.Dataset(
         data,
         coords={"t": ("t", t, {"units": "s", "long_name": "elapsed time"})},
@@ -197,28 +214,43 @@ def _pumped(t, flow):
     return spline.antiderivative()(root)
 
 
-def _tube_numbers(design, run):
+def _tube_numbers(run):
     """final_*: what is measured when the front has travelled the heated length."""
     last = run.isel(t=-1)
+    conserved, printed = "water conserved", "as printed"
+    balance = "gelpump.tube.pump"
     found = [
         ("front_width", "width of the front, 10 to 90 per cent", "2.20 L/A", "m", "eqn:tanh_fit"),
         ("departed_length", "length out of equilibrium", "", "m", "section 3.3"),
-        ("shed_volume", "water shed by the wall, per side", "", "m^3", "eqn:tube_model"),
-    ]
-    values = {name: float(last[name]) for name, *_ in found}
-    for form, said in (("printed", "as printed"), ("continuous", "water conserved")):
-        source = "eqn:lumen" if form == "printed" else "continuity at the inner edge"
-        texts = {
-            "lumen_velocity": ("largest velocity in the lumen", "v_z", "m/s"),
-            "flow_front": ("flow in the lumen at the front", "Q", "m^3/s"),
-            "flow_far": ("flow far ahead of the front", "Q", "m^3/s"),
-            "pumped_volume": ("volume pumped per pulse and side", "", "m^3"),
-        }
+        ("pumped_volume_conserving", f"volume pumped per pulse and side, {conserved}", "", "m^3",
+         balance),
+        ("pumped_end_volume", "the same, out of the tube’s own end", "", "m^3", balance),
+        ("collapse_volume", "of it by the lumen’s collapse, past a station", "", "m^3", balance),
+        ("from_wall_volume", "of it out of the wall", "", "m^3", balance),
+        ("pumped_volume_printed", f"volume pumped per pulse and side, {printed}", "", "m^3",
+         "eqn:lumen"),
+        ("shed_volume", f"water shed by the wall, per side, {printed}", "", "m^3",
+         "eqn:tube_model"),
+    ]  # fmt: skip
+    texts = {
+        "lumen_velocity": ("largest velocity in the lumen", "v_z", "m/s"),
+        "flow_front": ("flow in the lumen at the front", "Q", "m^3/s"),
+        "flow_far": ("flow far ahead of the front", "Q", "m^3/s"),
+    }
+    for form, said, source in (
+        ("conserving", conserved, balance),
+        ("printed", printed, "eqn:lumen"),
+    ):
         for name, (text, symbol, unit) in texts.items():
-            key = f"{name}_{form}"
-            values[key] = float(np.abs(last[key]).max() if last[key].dims else last[key])
-            found.append((key, f"{text}, {said}", symbol, unit, source))
+            found.append((f"{name}_{form}", f"{text}, {said}", symbol, unit, source))
     return [
-        Result(f"final_{key}", text, symbol, values[key], unit, source)
+        Result(
+            f"final_{key}",
+            text,
+            symbol,
+            float(np.abs(last[key]).max() if last[key].dims else last[key]),
+            unit,
+            source,
+        )
         for key, text, symbol, unit, source in found
     ]

@@ -217,7 +217,7 @@ def after_solving(design: Design, data: xr.Dataset) -> list[Light]:
         return []
     share = float((data.departed_length / data.front_position)[-1])
     peak = max(
-        float(np.abs(data[f"lumen_velocity_{form}"]).max()) for form in ("printed", "continuous")
+        float(np.abs(data[f"lumen_velocity_{form}"]).max()) for form in ("printed", "conserving")
     )
     a_0, L, mu = design.si("a_0"), design.si("heated_length"), design.si("viscosity")
     pressure = 8 * mu * peak * L / a_0**2

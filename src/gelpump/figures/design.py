@@ -177,13 +177,16 @@ def _lumen(ax, data):
     for index, colour in zip(marks, style.shades(style.LATER, len(marks)), strict=True):
         now = data.isel(t=index)
         seconds, unit = sheet.shown(float(now.t), "s")
-        for form, line in (("printed", "-"), ("continuous", "--")):
-            z, v = 1e3 * now.z_face.values, 1e3 * now[f"lumen_velocity_{form}"].values
+        for form, faces, line in (
+            ("conserving", "z_face_conserving", "-"),
+            ("printed", "z_face", "--"),
+        ):
+            z, v = 1e3 * now[faces].values, 1e3 * now[f"lumen_velocity_{form}"].values
             ax.plot(np.append(z, max(1.1 * last, z[-1])), np.append(v, v[-1]), line, color=colour,
-                    label=f"{seconds:.3g} {unit}" if form == "printed" else None)  # fmt: skip
+                    label=f"{seconds:.3g} {unit}" if form == "conserving" else None)  # fmt: skip
     ax.axhline(0, color=style.GREY, linewidth=0.5)
     ax.set(xlabel="$z$ (mm)", ylabel="lumen $v_z$ (mm/s)", xlim=(0, 1.1 * last))
-    for line, text in (("-", "as printed"), ("--", "water conserved")):
+    for line, text in (("-", "water conserved"), ("--", "as printed")):
         ax.plot([], [], line, color=style.GREY, label=text)
     _legend_above(ax)
 

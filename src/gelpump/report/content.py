@@ -103,8 +103,11 @@ class Figure:
 
     @property
     def label(self) -> str:
-        """What it is called: "Figure 3"."""
-        return f"Figure {self.number}" if self.number else "Verification"
+        """What it is called: "Figure 3", or "Figure X1" beyond the paper."""
+        if self.number:
+            return f"Figure {self.number}"
+        ours = re.match(r"fig(X\d+)_", self.name)
+        return f"Figure {ours[1]}" if ours else "Verification"
 
 
 @dataclass(frozen=True)
@@ -136,8 +139,9 @@ class Content:
     """Everything that page and article tell.
 
     verdict: claims by status, apart: those that no computation could contradict.  beyond: what is
-    stated beyond the paper.  verification and cross_check: as in their JSON files.  code_digest:
-    of the code of all datasets.  packages: versions by name.  citation: the parsed CITATION.cff.
+    stated beyond the paper, and beyond_figures: what is drawn of it.  verification and cross_check:
+    as in their JSON files.  code_digest: of the code of all datasets.  packages: versions by name.
+    citation: the parsed CITATION.cff.
     """
 
     verdict: dict[str, int]
@@ -146,6 +150,7 @@ class Content:
     beyond: list[Claim]
     ledger: list[Disagreement]
     figures: list[Figure]
+    beyond_figures: list[Figure]
     verification_figure: Figure
     tables: list[Table]
     verification: list[dict[str, Any]]
@@ -250,7 +255,8 @@ def gather(
         beyond=beyond,
         ledger=ledger,
         verification_figure=drawn.pop("verification"),
-        figures=list(drawn.values()),
+        figures=[each for each in drawn.values() if each.number],
+        beyond_figures=[each for each in drawn.values() if not each.number],
         tables=[_table(name, rule, config) for name, rule in tables.items()],
         verification=_read(results / "verification.json"),
         cross_check=_read(results / "cross_check.json"),

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gelpump.tube import lumen
+from gelpump.tube.front import sharpness
 from gelpump.tube.wall_flow import Wall
 
 if TYPE_CHECKING:
@@ -56,23 +57,36 @@ def digits(values) -> Any:
     return float(f"{float(values):.{DIGITS}g}")
 
 
-def tubes(pulse: "xr.Dataset", fit: "xr.Dataset") -> dict[str, Any]:
-    """Tubes of ``tube.slender`` behind a pulse of heat, with the flow in wall and lumen.
+def tubes(
+    printed: "xr.Dataset", fit: "xr.Dataset", conserving: "xr.Dataset"
+) -> dict[str, dict[str, Any]]:
+    """Tubes behind a pulse of heat by closure, with the flow in wall and lumen.
 
-    fit: of ``tube.front_fit``, for A(ell, tau).  Velocities are those of ``tube.flow`` and
-    ``tube.lumen`` in the cells: axial ones in L, radial ones in a_1 per poroelastic time.
+    printed: of ``tube.slender``; fit: of ``tube.front_fit``, for its A(ell, tau).  conserving: of
+    ``tube.pump.joined``.
     """
+    A = fit.A_tau.sel(ell=printed.ell, tau=printed.tau, method="nearest").values
+    found = {"printed": _tubes(printed, A, lumen.velocity_printed)}
+    for closure in conserving.closure.values:
+        pulse = conserving.sel(closure=closure)
+        found[str(closure)] = _tubes(pulse, sharpness(pulse)[0], lumen.velocity_conserving)
+    return found
+
+
+def _tubes(pulse, A, velocity) -> dict[str, Any]:
+    """Velocities are those of ``tube.wall_flow`` and ``tube.lumen`` in the cells: axial ones in L,
+    radial ones in a_1 per poroelastic time."""
     wall = Wall.of(pulse)
     front = int(pulse.hot.sum())
     kept = np.r_[(front - 1) % 2 : front : 2, front : pulse.sizes["cell"] : 2]
-    faces = {name: lumen.VELOCITIES[name](wall) for name in ("printed", "continuous")}
-    outer = wall.radial_velocity_printed(np.ones(1))[..., 0]
+    V = velocity(wall)
     cells = {
         "Phi1": pulse.Phi1.values,
-        "U_outer": outer,
+        "U_outer": wall.radial_velocity(np.ones(1))[..., 0],
         "V_g": wall.axial_velocity,
-        **{f"V_{name}": (V[..., 1:] + V[..., :-1]) / 2 for name, V in faces.items()},
+        "V": (V[..., 1:] + V[..., :-1]) / 2,
     }
+    late = V[:, pulse.sizes["tau"] // 2 :]
     return {
         "ell": digits(pulse.ell),
         "tau": digits(pulse.tau),
@@ -80,13 +94,10 @@ def tubes(pulse: "xr.Dataset", fit: "xr.Dataset") -> dict[str, Any]:
         "eps": digits(pulse.eps),
         "Phi_inf": digits(pulse.Phi_inf),
         "Phi1_front": digits(pulse.Phi1_front),
-        "A": digits(fit.A_tau.sel(ell=pulse.ell, tau=pulse.tau, method="nearest")),
-        **{f"V_{name}_front": digits(V[..., front]) for name, V in faces.items()},
-        **{f"V_{name}_far": digits(V[..., -1]) for name, V in faces.items()},
-        "limits": {
-            "printed": digits(faces["printed"].max(axis=(1, 2))),
-            "low": digits(faces["continuous"][:, pulse.sizes["tau"] // 2 :].min(axis=(1, 2))),
-        },
+        "A": digits(A),
+        "V_front": digits(V[..., front]),
+        "V_far": digits(V[..., -1]),
+        "highest": digits(late.max(axis=(1, 2))),
         "Z": float32(pulse.Z.values[..., kept]),
         **{name: uint16(values[..., kept], rows=2) for name, values in cells.items()},
     }

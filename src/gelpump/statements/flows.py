@@ -192,12 +192,12 @@ def lumen_matching(e):
 @states(
     "lumen-continuity",
     "section 3.6.2, appendix B",
-    f"{PULSE}: V_front_continuous_level, V_front_matched",
+    f"{PULSE}: V_front_moving, V_front_matched",
 )
 def lumen_continuity(e):
     """The lumen's radial velocity equals the flux relative to the wall: V with the wall's motion
     over V without it at Z_C is 1."""
-    names = "V_front_continuous_level", "V_front_matched"
+    names = "V_front_moving", "V_front_matched"
     follows = (
         "what is continuous is q = u + u_p: the wall's own motion adds a term as large as the rest"
     )

@@ -5,6 +5,7 @@
     deswelling_time, _curve       of tubes that are heated everywhere         (section 3.4)
     response_time                 the same in seconds, from SI units
     sharpness, tube_flow, water_budget   of solved tubes              (sections 3.5 and 3.6)
+    pump, wall                    beyond the paper: the balance of all water, walls resolved in r
 
 and the paper's production cases, from blocks of the configuration:
 
@@ -27,11 +28,13 @@ __getattr__, __dir__, __all__ = face(
         "family": "tube.production:family",
         "front_fit": "tube.front_fit",
         "lumen_pulse": "tube.lumen_pulse",
+        "pump": "tube.pump",
         "refinement": "tube.production:refinement",
         "response_time": "tube.deswelling:response_time",
         "sharpness": "tube.front:sharpness",
         "solve": "tube.slender:solve",
         "tube_flow": "tube.flow_fields:tube_flow",
+        "wall": "tube.wall",
         "water_budget": "tube.budget:water_budget",
     },
 )

@@ -14,9 +14,8 @@ eqn:phi2 and without the slope, what leaves is
 
     outwards:  pi (1-ell)/2 Integral F Phi_1^{-5/3} dZ,     to the lumen:  ell times as much,
 
-together half of the source's part of the shed rate: the 16 of F against the 8 of eqn:phi2. In the
-conserving form (`continuous`) a share sigma (`wall_flow.lumen_share`) of the source's part goes to
-the lumen, the rest outwards, and the slopes are kept; both then sum to the shed rate.
+together half of the source's part of the shed rate: the 16 of F against the 8 of eqn:phi2. Where
+all the water of a wall that conserves it goes is told by `gelpump.tube.pump`.
 """
 
 import numpy as np
@@ -37,18 +36,15 @@ def water_budget(pulse: xr.Dataset) -> xr.Dataset:
     """
     wall, behind = Wall.of(pulse), pulse.attrs["cells_behind"]
     ell = pulse.ell.values[:, np.newaxis]
-    sigma = lumen_share(ell)
 
     def by_side(running):
         total = np.pi * running
         return np.stack([total[..., behind], total[..., -1] - total[..., behind]], axis=-1)
 
     source = by_side(wall.integral(wall.F * wall.Phi1 ** (-5 / 3)))
-    area = wall.Phi1_face ** (-2 / 3)
     V_g = wall.axial_velocity_face
     spread = wall.Phi1 ** (-2 / 3) * np.diff(V_g)
     along = by_side(wall.integral(spread / wall.cell_length))
-    slope = by_side(area * V_g) - along
     shed = (1 - ell**2)[..., np.newaxis] * (source + along)
     rates = {
         "shed_rate": (shed, "rate at which the wall sheds water"),
@@ -59,18 +55,6 @@ def water_budget(pulse: xr.Dataset) -> xr.Dataset:
         "lumen_rate_printed": (
             (ell * (1 - ell))[..., np.newaxis] / 2 * source,
             "flow of water into the lumen, eqn:ug with eqn:phi2",
-        ),
-        "outer_rate_continuous": (
-            ((1 - sigma) * (1 - ell**2))[..., np.newaxis] * source - slope,
-            "flow of water out of the tube, water being conserved",
-        ),
-        "lumen_rate_continuous": (
-            (sigma * (1 - ell**2))[..., np.newaxis] * source + (ell**2)[..., np.newaxis] * slope,
-            "flow of water into the lumen, water being conserved",
-        ),
-        "lumen_rate_continuous_slope": (
-            (ell**2)[..., np.newaxis] * slope,
-            "part of the flow into the lumen that crosses the slope of the wall axially",
         ),
     }
     data = {
@@ -87,14 +71,8 @@ def water_budget(pulse: xr.Dataset) -> xr.Dataset:
     data |= {
         "axial_rate_front": variable(
             ("ell", "tau"),
-            -np.pi * (1 - ell**2) * (area * V_g)[behind_front],
+            -np.pi * (1 - ell**2) * (wall.Phi1_face ** (-2 / 3) * V_g)[behind_front],
             "flow of water through the wall from the swollen to the dry side of the front",
-            scaling.VOLUME_RATE,
-        ),
-        "collapse_rate": variable(
-            ("ell", "tau"),
-            lumen_area * V["continuous"] - data["lumen_rate_continuous"][1].sum(axis=-1),
-            "rate at which the lumen loses volume by the motion of its wall",
             scaling.VOLUME_RATE,
         ),
         "radial_to_axial_velocity": variable(

@@ -12,28 +12,25 @@ the text above eqn:lumen says:
 
     C = -4 (1-ell)/ell D (Phi_0 - Phi_1) Phi_1^{-1/3} / (eps^2 (1-ell)^2) = -(1-ell)/ell F/(4 Phi_1)
 
-Continuous: water is conserved. Continuous across the moving edge is q = u_g + u_p, the flux of
-water and polymer together, not u_g alone; and the edge slopes. With W the flow of water into the
-lumen per length, and pi B_0^2 = pi ell^2 Phi_1^{-2/3},
+Moving: what is continuous across the moving edge is q = u_g + u_p, the flux of water and polymer
+together, not u_g alone. With W the flow of water into the lumen per length, pi B_0^2 =
+pi ell^2 Phi_1^{-2/3} and sigma of `wall_flow.lumen_share`,
 
-    (pi B_0^2)_tau + (pi B_0^2 V)_Z = W = -2 pi B_0 (U_g - B_0' V_g) at the edge
-                                      = pi (1-ell^2) sigma F Phi_1^{-5/3} + (pi B_0^2)_Z V_g ,
+    (pi B_0^2)_tau + (pi B_0^2 V)_Z = W = pi (1-ell^2) sigma F Phi_1^{-5/3} .
 
-where sigma is `wall_flow.lumen_share` (what the source of the solved equation sheds goes where the
-(R^2, ln R, 1) form takes it). The lumen deforms with the wall: a material slice dX of it has the
-volume pi ell^2 dX/Phi_1, and the wall's own equation is DPhi_1/Dtau = F + Phi_1 V_g,Z, so
+The lumen deforms with the wall: a material slice dX of it has the volume pi ell^2 dX/Phi_1, so with
+u_p the polymer's axial velocity
 
-    (pi B_0^2)_tau + (pi B_0^2 u_p)_Z = -pi ell^2 Phi_1^{-5/3} DPhi_1/Dtau
-                                      = -pi ell^2 [ F Phi_1^{-5/3} + Phi_1^{-2/3} V_g,Z ]
+    (pi B_0^2)_tau + (pi B_0^2 u_p)_Z = -pi ell^2 Phi_1^{-5/3} DPhi_1/Dtau .
 
-with u_p the polymer's axial velocity. The difference integrates to
+Conserving: of a wall that conserves water (`gelpump.tube.closure`), where the right side is
+-pi ell^2 [ F Phi_1^{-5/3} + (Phi_1^{-2/3} V_g)_Z ], the difference integrates to
 
     V = u_p + V_g + Phi_1^{2/3} Integral_0^Z F Phi_1^{-5/3} [ 1 + sigma (1-ell^2)/ell^2 ] dZ .
 
-Continuous, level: the same without (pi B_0^2)_Z V_g in W. The edge is held at Phi_0, so no gradient
-along it drives V_g there; but Phi_1, hence eqn:tube_model, does not know that, and without the term
-what crosses the edges is not what the wall sheds. Where Phi_1 is near Phi_0, as the scaling needs,
-V_g is small and the two agree. V_g above becomes Phi_1^{2/3} Integral_0^Z Phi_1^{-2/3} dV_g.
+As printed the wall has DPhi_1/Dtau = F + Phi_1 V_g,Z instead, and V_g above becomes
+Phi_1^{2/3} Integral_0^Z Phi_1^{-2/3} dV_g (`moving`): the edge moves, but the wall that sheds the
+water does not conserve it, so this V says nothing of what the tube pumps.
 
 The tanh form (eqn:tanh_fit) gives V without its prefactor 8/(eps^2 (1-ell)^2), which is what figure
 12 plots, as Integral_0^Z Phi_1 D (Phi_0 - Phi_1) dZ. With Phi_1 itself as the variable,
@@ -71,13 +68,15 @@ def velocity_matched(wall: Wall) -> NDArray:
     return (1 - wall.ell) / wall.ell * wall.integral(wall.F / wall.Phi1) / 2
 
 
-def velocity_continuous(wall: Wall) -> NDArray:
-    """V by conservation of water, on the faces."""
+def velocity_conserving(wall: Wall) -> NDArray:
+    """V in a tube that conserves water, on the faces; ValueError if the wall does not."""
+    if not wall.conserves_water:
+        raise ValueError("the wall of the printed equation does not conserve water")
     return _deforming(wall) + wall.axial_velocity_face
 
 
-def velocity_continuous_level(wall: Wall) -> NDArray:
-    """The same without axial flow through the sloping edge."""
+def velocity_moving(wall: Wall) -> NDArray:
+    """V of the printed wall with the motion of the edge, on the faces."""
     along = wall.Phi1 ** (-2 / 3) * np.diff(wall.axial_velocity_face) / wall.cell_length
     return _deforming(wall) + wall.Phi1_face ** (2 / 3) * wall.integral(along)
 
@@ -91,14 +90,13 @@ def _deforming(wall):
 VELOCITIES = {
     "printed": velocity_printed,
     "matched": velocity_matched,
-    "continuous": velocity_continuous,
-    "continuous_level": velocity_continuous_level,
+    "moving": velocity_moving,
 }
 MEANING = {
     "printed": "as printed in eqn:lumen",
     "matched": "C from U_g of eqn:ug and eqn:phi2 at the inner edge",
-    "continuous": "water conserved across the moving and sloping edge",
-    "continuous_level": "water conserved across the moving edge, its slope neglected",
+    "moving": "with the motion of the inner edge, of the printed wall",
+    "conserving": "of a wall that conserves water",
 }
 
 

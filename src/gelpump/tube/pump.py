@@ -49,6 +49,7 @@ from gelpump.tube.tubes import Tubes, one_by_one
 from gelpump.tube.wall_flow import lumen_share
 
 NAMES = tuple(CLOSURES)
+SAFETY = 1.25  # of the grid-convergence index
 LINES = {
     "collapse_station": "volume that the lumen has lost up to a fixed station far ahead",
     "collapse_end": "volume that the lumen has lost up to the tube's own end",
@@ -133,8 +134,13 @@ def volumes(pulse: xr.Dataset, rate: bool = False) -> dict[str, np.ndarray]:
     }
 
 
-def balance(pulses: Mapping[str, xr.Dataset], heat: StepHeating) -> xr.Dataset:
-    """Volumes and rates of pulses by closure, dims (closure, ell, tau), against geometry."""
+def balance(
+    pulses: Mapping[str, xr.Dataset], heat: StepHeating, coarse: Mapping[str, xr.Dataset]
+) -> xr.Dataset:
+    """Volumes and rates of pulses by closure, dims (closure, ell, tau), against geometry.
+
+    coarse: the same with half the cells and four times the tolerance, for the uncertainty of V.
+    """
     one = next(iter(pulses.values()))
     ell, Phi_inf = one.ell.values, one.Phi_inf.values
     data = {}
@@ -158,10 +164,18 @@ def balance(pulses: Mapping[str, xr.Dataset], heat: StepHeating) -> xr.Dataset:
         )
     lumen = np.pi * ell[:, np.newaxis] ** 2
     V = data["pumped_station_rate"][1] / lumen
+    other = [volumes(pulse, rate=True)["pumped_station"] / lumen for pulse in coarse.values()]
+    error = SAFETY * np.abs(V - np.stack(other)) / 3
     expected = velocity_far(ell[:, np.newaxis], Phi_inf[:, np.newaxis], heat.front_speed(tau))
     dims = ("closure", "ell", "tau")
     data |= {
         "V_far": variable(dims, V, "velocity in the lumen far ahead", scaling.AXIAL_VELOCITY),
+        "V_far_uncertainty": variable(
+            dims,
+            error,
+            "numerical uncertainty: velocity in the lumen far ahead",
+            scaling.AXIAL_VELOCITY,
+        ),
         "V_far_geometry": variable(
             dims[1:], expected, "the same by geometry, long after the start", scaling.AXIAL_VELOCITY
         ),
@@ -170,6 +184,11 @@ def balance(pulses: Mapping[str, xr.Dataset], heat: StepHeating) -> xr.Dataset:
             _order(tau, V / expected - 1),
             "order in 1/tau at which V far ahead tends to that by geometry",
             "fitted to the last third of the times",
+        ),
+        "V_far_order_uncertainty": variable(
+            dims[:2],
+            np.abs(_order(tau, V / expected - 1) - _order(tau, np.stack(other) / expected - 1)),
+            "numerical uncertainty of the order: its change by a coarser mesh",
         ),
         "water_balance_error": variable(
             dims,
@@ -211,6 +230,12 @@ def closures(tubes: Tubes, heat: StepHeating, tau, numerics: Mapping) -> dict[st
     """The tubes by each closure, with books."""
     given = _numerics(numerics)
     return {name: solve(tubes, heat, tau, closure=name, books=True, **given) for name in NAMES}
+
+
+def coarser(numerics: Mapping) -> dict:
+    """Numerics of which the errors of space and time are four times as large."""
+    cells = [count // 2 for count in numerics["cells"]]
+    return {**numerics, "cells": cells, "tolerance": 4 * numerics["tolerance"]}
 
 
 def response(gel, tube: Mapping, settings: Mapping, numerics: Mapping) -> xr.Dataset:

@@ -111,6 +111,8 @@ class Wall:
     Z_face: np.ndarray
     behind: int
     """Number of cells behind the front, and so the front's face."""
+    conserves_water: bool = False
+    """Whether the wall is that of a closure that conserves water."""
 
     @classmethod
     def of(cls, pulse: xr.Dataset) -> Wall:
@@ -133,6 +135,7 @@ class Wall:
             flux=pulse.flux.values,
             Z_face=Z_face,
             behind=int(pulse.hot.sum()),
+            conserves_water="wall_length" in pulse,
         )
 
     @property
@@ -168,6 +171,10 @@ class Wall:
     @property
     def polymer_velocity_face(self) -> NDArray:
         """Axial velocity of the polymer on the faces; the section Z = 0 does not move."""
+        if self.conserves_water:
+            outflow = np.diff(self.Phi1_face ** (-2 / 3) * self.axial_velocity_face)
+            along = self.Phi1 ** (2 / 3) * outflow / self.cell_length
+            return -self.integral(self.F / self.Phi1 + along) / 3
         return -(self.integral(self.F / self.Phi1) + self.axial_velocity_face) / 3
 
     @property
@@ -195,6 +202,15 @@ class Wall:
     def radial_to_axial_velocity(self) -> NDArray:
         """The one over the other, in the same units."""
         return self.eps[..., 0] * self.largest_radial_velocity / self.largest_axial_velocity
+
+    def radial_velocity(self, s: NDArray) -> NDArray:
+        """U_g of the wall's own closure: printed, or (F/4) Phi_1^(-4/3) (2s - (1-ell^2)/(ln(1/ell)
+        s)) of a wall that conserves water, whatever its kappa."""
+        if not self.conserves_water:
+            return self.radial_velocity_printed(s)
+        ell = self.ell[..., np.newaxis]
+        slope = 2 * s - (1 - ell**2) / np.log(1 / ell) / s
+        return (self.F * self.Phi1 ** (-4 / 3) / 4)[..., np.newaxis] * slope
 
     def radial_velocity_printed(self, s: NDArray) -> NDArray:
         """U_g of eqn:ug with eqn:phi2 in the cells, at the swollen radius s, along a new axis."""

@@ -1,30 +1,51 @@
 // A tube that collapses behind a pulse of heat, and the flow in its wall and its lumen.
 const TUBE_SECONDS = 7; // of the whole course
 const TUBE_CLOSE = 0.1; // of the close view, to either side of the front, in L
-const TUBE_CELLS = ["Phi1", "U_outer", "V_g", "V_printed", "V_continuous"];
+const TUBE_CELLS = ["Phi1", "U_outer", "V_g", "V"];
+
+const nearest = (values, value) => values.reduce((best, each, i) => (Math.abs(each - value) < Math.abs(values[best] - value) ? i : best), 0);
 
 class TubeExplorer extends Explorer {
   constructor() {
     super("explore-tube");
-    const tubes = (this.tubes = data.tube);
-    this.shape = tubes.Z.shape;
-    this.cells = { Z: unpack(tubes.Z) };
-    for (const name of TUBE_CELLS) this.cells[name] = unpack(tubes[name]);
+    this.unpacked = {};
+    const tubes = this.choose("printed");
     this.ell = place(tubes.ell, 0.5);
     this.frame = place(tubes.tau, 0.02);
-    this.end = 1.08 * largest(tubes.Z_C);
-    this.slider("ell", tubes.ell.length, this.ell, (i) => printed(tubes.ell[i]), (i) => {
+    this.setWall = this.slider("ell", tubes.ell.length, this.ell, (i) => printed(this.tubes.ell[i]), (i) => {
       this.ell = i;
       this.show();
     });
-    this.setTime = this.slider("tau", tubes.tau.length, this.frame, (i) => printed(tubes.tau[i]), (i) => {
+    this.setTime = this.slider("tau", tubes.tau.length, this.frame, (i) => printed(this.tubes.tau[i]), (i) => {
       this.frame = i;
+      this.show();
+    });
+    this.control("closure").addEventListener("change", (event) => {
+      this.pause();
+      const [ell, tau] = [this.tubes.ell[this.ell], this.tubes.tau[Math.round(this.frame)]];
+      const { ell: walls, tau: times } = this.choose(event.target.value);
+      this.ell = nearest(walls, ell);
+      this.frame = nearest(times, tau);
+      this.control("ell").max = walls.length - 1;
+      this.control("tau").max = times.length - 1;
+      this.setWall(this.ell);
+      this.setTime(this.frame);
       this.show();
     });
     this.control("close").addEventListener("change", () => this.paint());
     this.canvas("section", (...all) => this.drawSection(...all));
     this.canvas("velocity", (...all) => this.drawVelocity(...all));
     this.show();
+  }
+
+  // The tubes of one closure.
+  choose(closure) {
+    const tubes = (this.tubes = data.tube[closure]);
+    this.closure = closure;
+    this.shape = tubes.Z.shape;
+    this.end = 1.08 * largest(tubes.Z_C);
+    this.cells = this.unpacked[closure] ??= Object.fromEntries(["Z", ...TUBE_CELLS].map((name) => [name, unpack(tubes[name])]));
+    return tubes;
   }
 
   // The cells at this moment; between two stored times, linear in the square root of tau.
@@ -54,7 +75,7 @@ class TubeExplorer extends Explorer {
     const tubes = this.tubes;
     const [i, j] = [this.ell, Math.round(this.frame)];
     this.number("Z_C", printed(tubes.Z_C[j]));
-    for (const name of ["Phi1_front", "A", "V_printed_front", "V_printed_far", "V_continuous_front", "V_continuous_far"]) {
+    for (const name of ["Phi1_front", "A", "V_front", "V_far"]) {
       this.number(name, printed(tubes[name][i][j]));
     }
     this.paint();
@@ -128,7 +149,7 @@ class TubeExplorer extends Explorer {
     };
     const scaleZ = at.x(1) - at.x(0);
     const scaleR = at.y(0) - at.y(1);
-    const [U, V_g, V] = ["U_outer", "V_g", "V_printed"].map((name) => this.now(name));
+    const [U, V_g, V] = ["U_outer", "V_g", "V"].map((name) => this.now(name));
     const R = Z.map((_, i) => radius(i));
     const front = at.x(this.front());
     const [from] = this.range();
@@ -166,9 +187,8 @@ class TubeExplorer extends Explorer {
   }
 
   drawVelocity(context, width, height) {
-    const { printed: high, low } = this.tubes.limits;
-    const top = 1.25 * high[this.ell];
-    const bottom = Math.max(low[this.ell], -0.5 * top) * 1.15;
+    const top = 1.25 * this.tubes.highest[this.ell];
+    const bottom = -0.08 * top;
     const at = axes(context, width, height, {
       x: linear(...this.range()), y: linear(bottom, top), xLabel: "axial position Z = z/L", yLabel: "lumen velocity V",
     });
@@ -178,14 +198,11 @@ class TubeExplorer extends Explorer {
     const xs = [start, ...Z, end];
     clipped(context, at.box, () => {
       line(context, at, [start, end], [0, 0], { colour: themed("soft"), width: 1 });
-      for (const [name, dash, colour] of [
-        ["V_continuous", [], data.colours.cases[2]],
-        ["V_printed", [7, 4], themed("link")],
-      ]) line(context, at, xs, extended(this.now(name)), { colour, dash, width: 2 });
+      line(context, at, xs, extended(this.now("V")), { colour: themed("link"), width: 2 });
       line(context, at, [this.front(), this.front()], [bottom, top], { colour: data.colours.nonlinear, width: 1.4, dash: [6, 4] });
     });
     const x = at.box.right - 8;
-    words(context, "– –  as printed in eqn:lumen", x, at.box.top + 14, { colour: themed("link"), align: "right" });
-    words(context, "——  water conserved", x, at.box.top + 32, { colour: themed("reproduced"), align: "right" });
+    const said = this.closure === "printed" ? "as printed in eqn:lumen" : "water conserved";
+    words(context, said, x, at.box.top + 14, { colour: themed("link"), align: "right" });
   }
 }

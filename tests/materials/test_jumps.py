@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from gelpump.materials import from_config
 from gelpump.materials.jumps import jump
 
 TEMPERATURES = np.arange(291.0, 320.0, 1.37)
@@ -36,6 +37,27 @@ def test_hht_to_312_begins_inside(hht):
     assert first == found.start == pytest.approx(0.052, abs=5e-4)
     assert last == pytest.approx(0.854, abs=5e-4)
     assert "with D < 0 from the start, phi = 0.0523 to 0.854: phases separate" in str(found)
+
+
+def test_a_gel_that_swells_when_heated_keeps_its_dry_branch():
+    """Within the hysteresis the branch is that which it comes from."""
+    chi = {"chi_1": {"A": 6.0, "Theta": 302.0}, "chi_2": 0.7}
+    mirrored = chi | {"chi_1": {"A": -6.0, "Theta": 302.0}}
+    network = {"elasticity": "neo-Hookean", "chain_length": 600.0}
+    gel, usual = (
+        from_config("mine", {"model": "flory-rehner", "chi": each, "network": network,
+                             "temperature_range": [270.0, 345.0]})
+        for each in (chi, mirrored)
+    )  # fmt: skip
+    assert usual.collapses_when_heated
+    assert not gel.collapses_when_heated
+    inside = gel.folds().temperature.mean()
+    dry, swollen = (gel.equilibrium_polymer_fraction(inside, b) for b in ("dry", "swollen"))
+    assert dry > 1.5 * swollen
+    low, high = gel.folds().temperature.min() - 3, gel.folds().temperature.max() + 3
+    assert jump(gel, low, inside).end == dry
+    assert jump(gel, high, inside).end == swollen
+    assert jump(gel, high, low).unstable  # it collapses
 
 
 def test_a_jump_is_told(anb, hht):

@@ -155,6 +155,12 @@ class ExplicitGel:
         within = self._in_range(T)
         return Folds(T[within], phi[within])
 
+    @property
+    def collapses_when_heated(self) -> bool:
+        """Whether the swollen branch ends at the warmer fold; True where there is no hysteresis."""
+        T, phi = self.folds()
+        return len(T) < 2 or bool(T[phi.argmin()] > T[phi.argmax()])
+
     def spinodal_tip(self) -> SpinodalTip:
         """Lowest minimum of T_sp(phi); ValueError when none lies within `temperature_range`."""
         phi = self._spinodal_extrema

@@ -86,9 +86,8 @@ def _hysteresis(gel, points):
             f"the fit has a hysteresis from {T.min():.2f} to {T.max():.2f} K, but no temperature "
             "is measured in both states there"
         )
-    collapses = T[phi.argmin()] > T[phi.argmax()]  # when heated; else the gel swells
     for branch in BRANCHES:
-        left = (points.phi > middle) == (collapses == (branch == "heating"))
+        left = (points.phi > middle) == (gel.collapses_when_heated == (branch == "heating"))
         early = points.on(branch) & left & within
         if early.any():
             yield (

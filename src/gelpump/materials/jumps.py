@@ -1,7 +1,8 @@
 """What a jump of temperature takes a gel through: the polymer fractions at which D < 0.
 
 A gel in equilibrium at T_before, phi_0(T_before), ends at phi_0(T_after), on the branch that it is
-on: the swollen one when it is heated, the dry one when it is cooled. On the way every polymer
+on: the swollen one when it is heated, the dry one when it is cooled; the other way round for a gel
+that swells when it is heated. On the way every polymer
 fraction between the two is met at T_after; between neighbouring roots of D(phi, T_after) = 0
 (`spinodal_polymer_fractions`) the sign of D is that at their middle, and where D < 0 phases
 separate (section 2.1.1).
@@ -45,7 +46,8 @@ def jump(gel, T_before: float, T_after: float) -> Jump:
 
     ValueError, from the gel, where it has no stable state at one of them.
     """
-    branch = "swollen" if T_after > T_before else "dry"
+    heated = T_after > T_before
+    branch = "swollen" if heated == gel.collapses_when_heated else "dry"
     start, end = (gel.equilibrium_polymer_fraction(T, branch) for T in (T_before, T_after))
     low, high = min(start, end), max(start, end)
     roots = gel.spinodal_polymer_fractions(T_after)

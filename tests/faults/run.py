@@ -376,7 +376,7 @@ def locales(fault: Fault) -> str:
 
 
 def strange_path(fault: Fault) -> str:
-    """A folder with spaces, letters beyond ASCII, quotes and what a shell would expand."""
+    """A folder with spaces, quotes and what a shell would expand; Python stands elsewhere."""
     site = fault.site("tübe & 'bead' 水 $HOME #1")
     site.complete()
     require_same(site, fault.reference)

@@ -19,7 +19,7 @@ def whole(path: str | Path) -> Iterator[Path]:
     try:
         partial.unlink(missing_ok=True)
         yield partial
-        with partial.open("rb") as stream:
+        with partial.open("r+b") as stream:  # Windows flushes only what can be written
             os.fsync(stream.fileno())
         partial.replace(path)
     except (OSError, RuntimeError) as refusal:  # RuntimeError: how netCDF-4 tells of a full disk

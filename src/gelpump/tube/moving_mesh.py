@@ -26,6 +26,8 @@ Closures that conserve the water of the wall are solved in the same way, with la
 lambda V and the potential of 3 lambda^2 K in place of k. They go on sweeping at a fixed X_C, where
 the Jacobian is exact, until the sum over the cells, and with it the water, is conserved to
 rounding; what crosses front, edges and sections is kept in books (`gelpump.tube.ledger`).
+
+A little over 300 lines, since it is one class: the residual, its Jacobian and what is read off them.
 """
 
 from __future__ import annotations

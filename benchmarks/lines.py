@@ -1,8 +1,9 @@
 """The method of lines: the semi-discrete equations a competent user writes, and the integrators.
 
-Nothing of gelpump's solvers is used.  Every system has an exact or nearly exact tridiagonal
-Jacobian, which every integrator gets in the form it wants: CVODE (SUNDIALS, of scikit-sundae) and
-LSODA as a band, SciPy's BDF and Radau as a sparse matrix.
+Nothing of gelpump's integrators is used, nor of its equations but those of the fully nonlinear
+bead, whose rate and Jacobian are the library's own.  Every system has an exact or nearly exact
+tridiagonal Jacobian, which every integrator gets in the form it wants: CVODE (SUNDIALS, of
+scikit-sundae) and LSODA as a band, SciPy's BDF and Radau as a sparse matrix.
 """
 
 import math

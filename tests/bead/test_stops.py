@@ -17,6 +17,7 @@ from gelpump.bead.sensitivity import sensitivity
 from gelpump.figures import bead_panels, fig01_lens_schematic, fig05_spinodal, style
 from gelpump.materials import EnergyBasedGel, tables
 from gelpump.second_solvers import cross_check, lens_bead
+from gelpump.second_solvers.course import observed
 
 GELS = {
     "HHT": (EnergyBasedGel("HHT", -62.22, -58.28, 0.20470, 0.19044, 720.0, (290.0, 320.0)), 304.0),
@@ -148,7 +149,7 @@ def test_a_case_that_stops_is_cross_checked(T):
     gel, _ = GELS["HHT"]
     case, runs = stopped(T)
     temperature, phi, times = production.start(gel, case, {"output_times": 30})
-    other = lens_bead.observed(gel, temperature, phi, times, 60, 1e-6)
+    other = observed(lens_bead.solve, gel, temperature, phi, times, 60, 1e-6)
     bounds = {"radius": 5e-2, "stop_time": 5e-2}
     rows = cross_check.bead_rows("drying", *runs["lens"], other, bounds)
     names = [row["quantity"] for row in rows]

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
-from gelpump.bead import lens
+from gelpump.bead import lens, nonlinear
 from gelpump.materials import PiecewiseLinearGel, from_config
-from gelpump.second_solvers import cross_check, lens_bead, tube
+from gelpump.second_solvers import course, cross_check, lens_bead, nonlinear_bead, tube
 
 TIMES = np.array([0.0, 1e-3, 0.01, 0.1])
 
@@ -23,16 +24,55 @@ def test_bead_is_of_second_order_within_its_uncertainty(hht):
     radius = [lens_bead.solve(hht, 304.0, phi, TIMES, n).radius[1:] for n in (40, 80, 160)]
     steps = np.abs(np.diff(radius, axis=0))
     assert np.log2(steps[0] / steps[1]).min() > 1.7
-    observed = lens_bead.observed(hht, 304.0, phi, TIMES, 80, 1e-8)
+    observed = course.observed(lens_bead.solve, hht, 304.0, phi, TIMES, 80, 1e-8)
     limit = lens_bead.solve(hht, 304.0, phi, TIMES, 320).radius
     assert (np.abs(observed.radius[0] - limit) <= observed.radius_uncertainty + 1e-12).all()
 
 
 def test_bead_stops_where_phases_separate(hht):
     phi = hht.equilibrium_polymer_fraction(304.0)
-    course = lens_bead.solve(hht, 308.0, phi, np.array([0.0, 0.1, 1.0]), 80)
-    assert course.stop == pytest.approx(0.14525, abs=2e-5)
-    assert course.t.tolist() == [0.0, 0.1]
+    found = lens_bead.solve(hht, 308.0, phi, np.array([0.0, 0.1, 1.0]), 80)
+    assert found.stop == pytest.approx(0.14525, abs=2e-5)
+    assert found.t.tolist() == [0.0, 0.1]
+
+
+def test_elements_differentiate_and_integrate_polynomials_exactly():
+    x, weights, D = nonlinear_bead.lobatto(3)
+    for degree in range(4):
+        np.testing.assert_allclose(D @ x**degree, degree * x ** max(degree - 1, 0), atol=1e-13)
+    for degree in range(6):
+        exact = (1 - (-1) ** (degree + 1)) / (degree + 1)
+        assert weights @ x**degree == pytest.approx(exact, abs=1e-14)
+
+
+def test_the_elements_rest_in_equilibrium(hht):
+    phi = hht.equilibrium_polymer_fraction(304.0)
+    elements = nonlinear_bead.Elements(hht, 304.0, 12)
+    assert np.abs(elements.rate(0.0, elements.dry[1:] * phi ** (-1 / 3))).max() < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "times"),
+    [(308.0, 304.0, [0, 1e-3, 0.01, 0.1, 1]), (304.0, 307.6, [0, 0.2, 1, 3, 5, 5.5, 8])],
+    ids=["swelling", "drying"],
+)
+def test_the_nonlinear_bead_agrees_with_its_second_solver(hht, before, after, times):
+    phi = hht.equilibrium_polymer_fraction(before)
+    times = np.array(times, dtype=float)
+    second = course.observed(nonlinear_bead.solve, hht, after, phi, times, 40, 1e-6)
+    first = nonlinear.solve(hht, after, phi, times, 100, tolerance=1e-8)
+    difference = np.abs(second.radius.values[0] - first.radius.values)
+    assert difference.max() < 3e-5
+    assert second.radius_uncertainty.max() < 3e-5
+    assert np.abs(np.diff(second.radius, axis=0)).max() > 0  # two runs that could differ
+
+
+@pytest.mark.parametrize(("T", "stop"), [(307.65, 1.87973), (307.75, 0.74189), (308.0, 0.0)])
+def test_the_nonlinear_bead_stops_where_its_second_solver_does(hht, T, stop):
+    phi = hht.equilibrium_polymer_fraction(304.0)
+    found = nonlinear_bead.solve(hht, T, phi, np.array([0.0, 0.1, 8.0]), 60, rtol=1e-6)
+    assert found.stop == pytest.approx(stop, rel=2e-4, abs=1e-6)
+    assert found.t.size == found.radius.size == (1 if stop == 0 else 2)
 
 
 @pytest.mark.parametrize(
@@ -52,6 +92,25 @@ def test_both_beads_of_a_gel_of_the_literature_agree(elasticity, ions):
     np.testing.assert_allclose(first.radius.values[1:], second.radius[1:], rtol=5e-4)
     swollen = second.radius[-1] / second.radius[0]
     assert swollen > 1.02
+
+
+def test_the_tube_satisfies_the_printed_integral_equation():
+    """Put into eqn:tube_model with differences in Z and tau and a quadrature of the integral."""
+    M, w, n, t = 1.0, 0.1 * 0.5 / 4, 200, 1e-2
+    step = 1e-3 * t
+    Z, Phi = tube.solve(np.array([t - step, t, t + step]), 0.5, nodes=n, rtol=1e-8)
+    here = slice(2, n - 2)  # behind the front, in nodes of the middle time
+    before, after = (CubicSpline(Z[i, : n + 1], Phi[i, : n + 1])(Z[1]) for i in (0, 2))
+    Phi_tau = ((after - before) / (2 * step))[: n + 1]
+    spline = CubicSpline(Z[1, : n + 1], Phi[1, : n + 1])
+    Z, Phi = Z[1, : n + 1], Phi[1, : n + 1]
+    D = Phi / 2 + 4 * M / 3 * np.cbrt(Phi)
+    slope = spline(Z, 1)
+    G = CubicSpline(Z, Phi ** (-2 / 3) * Phi_tau).antiderivative()(Z)
+    F = Phi ** (2 / 3) * D * (2 - Phi) / w**2
+    left = Phi_tau + D / Phi * slope**2 - np.cbrt(Phi) ** -1 / 3 * slope * G
+    right = F + CubicSpline(Z, D * slope)(Z, 1)
+    assert np.abs(left - right)[here].max() < 0.03 * np.abs(slope * G / np.cbrt(Phi) / 3).max()
 
 
 def test_tube_uncertainty_covers_its_error():

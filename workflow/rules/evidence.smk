@@ -1,6 +1,7 @@
 # Why a number may be believed: a second solver for each equation, and known solutions.
 
-CHECKS = expand(f"{DATA}/second/bead_{{case}}_lens.nc", case=config["beads"]) + [
+SECOND_BEADS = expand("bead_{case}_{model}", case=config["beads"], model=["lens", "nonlinear"])
+CHECKS = [f"{DATA}/second/{bead}.nc" for bead in SECOND_BEADS] + [
     f"{DATA}/second/tube_pulse.nc",
     "results/cross_check.json",
     "results/tables/cross_check.md",
@@ -10,28 +11,30 @@ CHECKS = expand(f"{DATA}/second/bead_{{case}}_lens.nc", case=config["beads"]) + 
 ]
 CROSS_CHECKED = [
     f"{DATA}/{folder}{dataset}.nc"
-    for dataset in [*(f"bead_{case}_lens" for case in config["beads"]), "tube_pulse"]
+    for dataset in [*SECOND_BEADS, "tube_pulse"]
     for folder in ["", "refinement/", "second/"]
 ]
 
 
-rule second_bead_lens:
+rule second_bead:
     input:
-        src=modules("second_bead_lens"),
+        src=modules("second_bead"),
     output:
-        f"{DATA}/second/bead_{{case}}_lens.nc",
+        f"{DATA}/second/bead_{{case}}_{{model}}.nc",
     log:
-        "results/logs/second_bead_{case}_lens.log",
+        "results/logs/second_bead_{case}_{model}.log",
     benchmark:
-        "results/benchmarks/second_bead_{case}_lens.tsv"
+        "results/benchmarks/second_bead_{case}_{model}.tsv"
+    wildcard_constraints:
+        model="lens|nonlinear",
     priority: 1
     params:
         case=bead_case,
         gel=bead_gel,
-        numerics=config["numerics"]["second_bead_lens"],
-        output_times=config["numerics"]["bead_lens"]["output_times"],
+        numerics=lambda wildcards: config["numerics"][f"second_bead_{wildcards.model}"],
+        output_times=lambda wildcards: config["numerics"][f"bead_{wildcards.model}"]["output_times"],
     script:
-        "../scripts/second_bead_lens.py"
+        "../scripts/second_bead.py"
 
 
 rule second_tube_pulse:
@@ -71,7 +74,7 @@ rule cross_check:
     benchmark:
         "results/benchmarks/cross_check.tsv"
     params:
-        cases=list(config["beads"]),
+        beads=SECOND_BEADS,
         bounds=config["cross_check"],
     script:
         "../scripts/cross_check.py"

@@ -10,10 +10,10 @@ with job(snakemake):
     data = netcdf.read_all(snakemake.input.data, "results/data")
     bounds = snakemake.params.bounds
     rows = []
-    for case in snakemake.params.cases:
-        bead = f"bead_{case}_lens"
+    for bead in snakemake.params.beads:
         solutions = data[bead], data[f"refinement/{bead}"], data[f"second/{bead}"]
-        rows += cross_check.bead_rows(case, *solutions, bounds)
+        _, case, model = bead.split("_")
+        rows += cross_check.bead_rows(f"{case}, {cross_check.MODELS[model]}", *solutions, bounds)
     tubes = data["tube_pulse"], data["refinement/tube_pulse"], data["second/tube_pulse"]
     rows += cross_check.tube_rows(*tubes, bounds["Phi1"])
     print(cross_check.markdown(rows))

@@ -239,7 +239,7 @@ def _comparison(row):
         "quantity": runs(from_plain(row["quantity"])),
         "at": runs(from_plain(row["at"])),
         "difference": number(f"{row['difference']:.1e}"),
-        "first": number(f"{row['uncertainty_fipy']:.1e}"),
+        "first": number(f"{row['uncertainty_first']:.1e}"),
         "second": number(f"{row['uncertainty_second']:.1e}"),
         "limit": number(f"{row['limit']:.1e}"),
         "verdict": "agrees" if row["agrees"] else "differs",

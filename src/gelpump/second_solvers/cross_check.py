@@ -1,13 +1,14 @@
-"""The FiPy solutions against the second ones: do they differ by more than both admit?
+"""The production solutions against second ones: do they differ by more than both admit?
 
 A quantity agrees if the largest difference is at most
 
     limit = min( u_1 + u_2, bound )
 
-with u_1 the uncertainty that refinement of the FiPy runs claims, u_2 that of the second solver
-and ``bound`` the most that is allowed whatever is claimed.  Both are grid-convergence indices that
-hold a safety factor of 1.25 each; no other is granted.  Uncertainties are the largest along the
-course, as the difference is: where a course crosses that of another mesh, its own is an accident.
+with u_1 the uncertainty that refinement of the production runs claims, u_2 that of the second
+solver and ``bound`` the most that is allowed whatever is claimed.  Both are grid-convergence
+indices that hold a safety factor of 1.25 each; no other is granted.  Uncertainties are the largest
+along the course, as the difference is: where a course crosses that of another mesh, its own is an
+accident.
 """
 
 from collections.abc import Mapping, Sequence
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 Row = dict[str, Any]
 
+MODELS = {"lens": "LENS", "nonlinear": "fully nonlinear"}
+
 CLOSING = 1e-3  # of the time: the step that FiPy's bead could not make any more (`gelpump.bdf`)
 
 
@@ -39,7 +42,7 @@ def row(quantity: str, difference, first, second, bound: float, at: str = "") ->
         "quantity": quantity,
         "at": at,
         "difference": difference,
-        "uncertainty_fipy": first,
+        "uncertainty_first": first,
         "uncertainty_second": second,
         "bound": bound,
         "limit": limit,
@@ -54,7 +57,7 @@ def bead_rows(
     second: "xr.Dataset",
     bounds: Mapping[str, float],
 ) -> list[Row]:
-    """Radius of a LENS bead at all times that both reach, and the time at which phases separate."""
+    """Radius of a bead at all times that both reach, and the time at which phases separate."""
     t = np.intersect1d(first.t, second.t)
     t = t[t < first.attrs.get("stopped_t", np.inf)]
     rows = []
@@ -72,12 +75,12 @@ def bead_rows(
         )
     stops = "stopped_t" in first.attrs, "stop_time" in second
     if stops[0] != stops[1]:
-        raise Disagreement(f"{case}: FiPy stops: {stops[0]}, the second solver: {stops[1]}")
+        raise Disagreement(f"{case}: production stops: {stops[0]}, the second solver: {stops[1]}")
     if all(stops):
         rows.append(
             row(
                 f"stop time, {case}",
-                _apart(first.attrs["stopped_t"], float(second.stop_time[0])),
+                _apart(first, float(second.stop_time[0])),
                 # some of the runs do not stop: nothing but the bound is known
                 refinement.get("stop_time_uncertainty", bounds["stop_time"]),
                 second.stop_time_uncertainty,
@@ -87,9 +90,11 @@ def bead_rows(
     return rows
 
 
-def _apart(first: float, second: float) -> float:
-    """Between the second's stop and FiPy's: within the step that follows its last one."""
-    return max(first - second, second - (1 + CLOSING) * first, 0.0)
+def _apart(first: "xr.Dataset", stop: float) -> float:
+    """Between the stops of the two; FiPy's is within the step that it could not make any more."""
+    last = first.attrs["stopped_t"]
+    end = (1 + CLOSING) * last if "sweeps" in first.attrs else last
+    return max(last - stop, stop - end, 0.0)
 
 
 def tube_rows(
@@ -156,7 +161,7 @@ def require_agreement(rows: Sequence[Row]) -> None:
     failed = [each for each in rows if not each["agrees"]]
     if failed:
         raise Disagreement(
-            "FiPy and the second solver differ by more than they claim: "
+            "production and the second solver differ by more than they claim: "
             + "; ".join(
                 f"{each['quantity']} by {each['difference']:.2e}, allowed {each['limit']:.2e}"
                 for each in failed
@@ -171,11 +176,11 @@ def markdown(rows: Sequence[Row]) -> str:
         "quantity": lambda each: each["quantity"],
         "largest difference": lambda each: f"{each['difference']:.1e}",
         "at": lambda each: each["at"],
-        "uncertainty, FiPy": lambda each: f"{each['uncertainty_fipy']:.1e}",
+        "uncertainty, production": lambda each: f"{each['uncertainty_first']:.1e}",
         "uncertainty, second": lambda each: f"{each['uncertainty_second']:.1e}",
         "bound": lambda each: f"{each['bound']:.0e}",
         "allowed": lambda each: f"{each['limit']:.1e}",
         "verdict": lambda each: "agrees" if each["agrees"] else "differs",
     }
     intro = f"{agree} of {len(rows)} quantities agree."
-    return page("FiPy against a second solver", intro, columns, rows)
+    return page("Production against a second solver", intro, columns, rows)

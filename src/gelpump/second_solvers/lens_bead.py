@@ -18,34 +18,14 @@ when, as soon as that interval holds no stress-free surface or a shell leaves it
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from gelpump.netcdf import variable
+from gelpump.second_solvers.course import Course
 
-if TYPE_CHECKING:
-    import xarray as xr
-
-ORDER = 2  # in space
-SAFETY = 1.25  # of the grid-convergence index
 ABSOLUTE = 0.01  # absolute tolerance over the relative one
-COARSER = 10.0  # times looser are the tolerances of the coarse run
-
-
-class Course(NamedTuple):
-    """A bead's course: its radius a and its shells' (r, phi) at the times t, and where it stopped.
-
-    ``stop`` is None, or the time at which the model ended; the last of t is then before it.
-    """
-
-    t: NDArray
-    radius: NDArray
-    r: NDArray
-    polymer_fraction: NDArray
-    stop: float | None
 
 
 def diffusivity(gel, T, phi):
@@ -159,11 +139,9 @@ class Shells:
         return np.diff(slopes, axis=0, prepend=0.0) / self.volume[:, None]
 
     def course(self, times, states, stop: float | None) -> Course:
-        """What the states J, at the first of the times, say of radii and polymer fractions."""
-        J = np.array(states)
-        cube = np.cumsum(J * self.volume, axis=1)
-        r = np.cbrt(cube - J * self.volume / 2)
-        return Course(np.asarray(times)[: len(J)], np.cbrt(cube[:, -1]), r, 1 / J, stop)
+        """The radii of the states J, at the first of the times."""
+        radius = np.cbrt(np.array(states) @ self.volume)
+        return Course(np.asarray(times)[: radius.size], radius, stop)
 
     def margin(self, J: NDArray) -> float:
         """Positive while the surface is free of stress and all shells are stable."""
@@ -215,40 +193,3 @@ def solve(gel, T, phi_initial, times, cells, *, rtol=1e-8) -> Course:
             break
         states.append(np.array(step.y))
     return shells.course(times, states, stop)
-
-
-def observed(gel, T, phi_initial, times, cells: int, rtol: float) -> xr.Dataset:
-    """Radius and stop time on two meshes, dim level, with the uncertainty of the first.
-
-    The first has ``cells`` shells, the second half as many and looser tolerances, so that the
-    difference of the two holds the error of time as well.
-    """
-    import xarray as xr
-
-    levels = [(cells, rtol), (cells // 2, COARSER * rtol)]
-    runs = [solve(gel, T, phi_initial, times, n, rtol=tolerance) for n, tolerance in levels]
-    share = SAFETY / (2**ORDER - 1)
-    common = min(run.t.size for run in runs)
-    radius = np.array([run.radius[:common] for run in runs])
-    data = {
-        "radius": variable(("level", "t"), radius, "radius of the bead", "lengths in R_dry"),
-        "radius_uncertainty": variable(
-            "t", share * np.abs(radius[0] - radius[1]), "numerical uncertainty: radius of the bead"
-        ),
-    }
-    stops = [run.stop for run in runs]
-    if None not in stops:
-        data["stop_time"] = variable("level", stops, "time at which phases begin to separate")
-        data["stop_time_uncertainty"] = variable(
-            (),
-            share * abs(stops[0] - stops[1]),
-            "numerical uncertainty: time at which phases begin to separate",
-        )
-    return xr.Dataset(
-        data,
-        coords={
-            "t": variable("t", runs[0].t[:common], "elapsed time", "t_BMJ"),
-            "cells": variable("level", [n for n, _ in levels], "number of shells"),
-            "tolerance": variable("level", [rtol for _, rtol in levels], "tolerance of CVODE"),
-        },
-    )

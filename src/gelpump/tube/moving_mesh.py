@@ -27,7 +27,7 @@ lambda V and the potential of 3 lambda^2 K in place of k. They go on sweeping at
 the Jacobian is exact, until the sum over the cells, and with it the water, is conserved to
 rounding; what crosses front, edges and sections is kept in books (`gelpump.tube.ledger`).
 
-A little over 300 lines, since it is one class: the residual, its Jacobian and what is read off them.
+It is one class, the residual with its Jacobian and what is read off them, hence its length.
 """
 
 from __future__ import annotations

@@ -146,3 +146,15 @@ def radii_read_off(case):
     claimed = {model: f"{verb}-radius-{model}" for model in ("lens", "nonlinear")}
     known = config["published"]
     return {model: known[claim]["value"] for model, claim in claimed.items() if claim in known}
+
+
+def separation_case(wildcards):
+    """A bead of the paper up to another last time, or one of those that are only solved here."""
+    if wildcards.case in SEPARATION["drawn"]:
+        return config["beads"][wildcards.case] | {"end": SEPARATION["drawn"][wildcards.case]}
+    return SEPARATION["cases"][wildcards.case]
+
+
+def truth_settings(*names):
+    """The blocks of config["truth"] that a rule takes, and the tube's gel."""
+    return {name: config["truth"][name] for name in names}

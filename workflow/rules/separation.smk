@@ -20,13 +20,6 @@ SEPARATED = [
 ]
 
 
-def separation_case(wildcards):
-    """A bead of the paper up to another last time, or one of those that are only solved here."""
-    if wildcards.case in SEPARATION["drawn"]:
-        return config["beads"][wildcards.case] | {"end": SEPARATION["drawn"][wildcards.case]}
-    return SEPARATION["cases"][wildcards.case]
-
-
 rule separation:
     input:
         SEPARATED,

@@ -4,11 +4,6 @@
 TRUTH = "results/truth"
 
 
-def truth_settings(*names):
-    """The blocks of config["truth"] that a rule takes, and the tube's gel."""
-    return {name: config["truth"][name] for name in names}
-
-
 rule pump_truth:
     input:
         expand(f"{TRUTH}/{{name}}.nc", name=["waves", "verification", "slenderness"]),

@@ -187,7 +187,7 @@ MUTANTS = (
     ),
     Mutant(
         "wrong exponent of the stretch",
-        NONLINEAR,
+        "src/gelpump/bead/stress_free.py",
         "return -osmotic + 1 / (f * l_t**4)",
         "return -osmotic + 1 / (f * l_t**2)",
         TEST_NONLINEAR,
@@ -202,8 +202,8 @@ MUTANTS = (
     Mutant(
         "parameter's change halved",
         "src/gelpump/bead/sensitivity.py",
-        "values / (2.0 * SHARE))",
-        "values / (4.0 * SHARE))",
+        "changes.append((runs[0] - runs[1]) / (2.0 * SHARE))",
+        "changes.append((runs[0] - runs[1]) / (4.0 * SHARE))",
         "tests/bead/test_production.py",
     ),
     Mutant(

@@ -30,6 +30,7 @@ functions (`first_eigenvalue`); for a thin wall whose surface bears no force
 from functools import partial
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import j0, y0
 
@@ -52,20 +53,21 @@ NODES = 64  # of the quadrature of `closure_time`
 class Walls:
     """The semi-discrete walls of a family of tubes, arrays (tube, cell) or (tube, face).
 
-    Each has its own unit of time, so that all relax alike.
+    Each has its own unit of time, so that all relax alike, and its own surface, of SURFACES.
     """
 
-    def __init__(self, tubes: Tubes, surface: str, cells: int, tolerance: float):
+    def __init__(self, tubes: Tubes, surface: ArrayLike, cells: int, tolerance: float):
         columns = (tubes.ell, tubes.M, tubes.Pi_ratio, tubes.Phi_inf)
         self.ell, self.M, Pi_ratio, self.Phi_0 = (np.reshape(c, (-1, 1)) for c in columns)
         self.s = Pi_ratio / self.Phi_0
-        self.closure, self.accuracy = named(surface), NEWTON_SHARE * tolerance
+        self.forceless = (np.full(len(self.ell), surface) == "balanced")[:, np.newaxis]
+        self.accuracy = NEWTON_SHARE * tolerance
         share = (1 - np.cos(np.pi * np.arange(cells + 1) / cells)) / 2
         y = (self.ell + (1 - self.ell) * share) ** 2 / 2
         self.dy, self.y = np.diff(y), y
         middle = (y[:, 1:] + y[:, :-1]) / 2
         self.gap = np.diff(np.hstack([y[:, :1], middle, y[:, -1:]]))
-        k = thin_wall_eigenvalue(self.M, self.s, self.Phi_0) if surface == "balanced" else np.pi
+        k = np.where(self.forceless, thin_wall_eigenvalue(self.M, self.s, self.Phi_0), np.pi)
         h = (1 - self.ell) * self.Phi_0 ** (-1 / 3)
         self.unit = np.log(100) * h**2 / (k**2 * self.diffusivity(self.Phi_0))
         self.sweep = NewtonSweep(self.dy.size)
@@ -90,7 +92,8 @@ class Walls:
 
     def surface_fraction(self, J):
         """Phi_s."""
-        return self.closure.surface(self.stretch(J), self.s, self.Phi_0, self.M)[0]
+        forceless = named("balanced").surface(self.stretch(J), self.s, self.Phi_0, self.M)[0]
+        return np.where(self.forceless, forceless, self.Phi_0)
 
     def advance(self, t, guess, alpha, history):
         """One implicit step; the geometry follows the Newton iteration by one sweep."""
@@ -135,7 +138,9 @@ class Walls:
         return np.array([at_centre.sum(axis=1), 1 / self.stretch(J)[:, 0] ** 3])
 
 
-def relax(tubes: Tubes, surface: str, cells: int = CELLS, tolerance: float = TOLERANCE):
+def relax(
+    tubes: Tubes, surface: ArrayLike, cells: int = CELLS, tolerance: float = TOLERANCE
+) -> NDArray:
     """tau_99 on the midline and of the mean, shape (2, tube), in units of mu_l L^2/(k Pi_00)."""
     walls = Walls(tubes, surface, cells, tolerance)
     wanted = (walls.Phi_0 - (walls.Phi_0 - 1) / 100)[:, 0]
@@ -165,12 +170,15 @@ def _excess(walls, step, which, tube, wanted, t):
 
 def deswelling_times(tubes: Tubes) -> tuple[np.ndarray, np.ndarray]:
     """tau_99 by SURFACES, on the midline and of the mean, (2, 2, tube), and its uncertainty."""
-    fewer, looser = COARSER
-    fine = np.array([relax(tubes, surface) for surface in SURFACES])
-    coarse = np.array(
-        [relax(tubes, surface, CELLS // fewer, TOLERANCE * looser) for surface in SURFACES]
+    columns = (tubes.ell, tubes.eps, tubes.M, tubes.Pi_ratio, tubes.Phi_inf)
+    both = Tubes(*(np.tile(np.ravel(column), len(SURFACES)) for column in columns))
+    surfaces = np.repeat(SURFACES, tubes.ell.size)
+    fine, coarse = (
+        relax(both, surfaces, CELLS // fewer, TOLERANCE * looser).reshape(2, len(SURFACES), -1)
+        for fewer, looser in ((1, 1.0), COARSER)
     )
-    return fine, SAFETY * np.abs(fine - coarse) / (fewer**2 - 1)
+    fine, coarse = fine.swapaxes(0, 1), coarse.swapaxes(0, 1)
+    return fine, SAFETY * np.abs(fine - coarse) / (COARSER[0] ** 2 - 1)
 
 
 def closure_time(tubes: Tubes, closure: str) -> np.ndarray:

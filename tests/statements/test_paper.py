@@ -289,3 +289,26 @@ def test_the_paper_is_inconsistent_where_only_one_of_its_values_is_ours(evidence
     assert judged(evidence, "A-exponent")["status"] == "reproduced"
     assert judged(evidence, "A-values")["status"] == "reproduced"
     assert ELL[0] == 0.01
+
+
+@pytest.mark.parametrize(("case", "stop"), [("drying", 3.0), ("drying", 0.0), ("swelling", 0.5)])
+def test_nothing_is_told_of_a_bead_after_it_has_stopped(evidence, case, stop):
+    """Its last radius is not that of a later time, and D is no longer positive."""
+    sentence = f"phase separation at t = {stop:g}"
+    for model in ("lens", "nonlinear"):
+        name = f"bead_{case}_{model}"
+        for each in (name, f"refinement/{name}"):
+            whole = evidence.data[each]
+            evidence.data[each] = whole.sel(t=whole.t[whole.t < stop])
+        attributes = {"stopped": sentence, "stopped_t": stop}
+        evidence.data[name].attrs |= attributes
+    avoids = "drying-3076-avoids-spinodal" if case == "drying" else "swelling-avoids-spinodal"
+    assert judged(evidence, avoids)["status"] == "deviates"
+    verb = {"drying": "dry", "swelling": "swell"}[case]
+    open_ones = [f"{verb}-radius-{model}" for model in ("lens", "nonlinear")]
+    open_ones += ["dry-plateau", "dry-steep-at-5"] if case == "drying" else ["swell-lens-slower"]
+    for name in open_ones:
+        found = judged(evidence, name)
+        assert found["computed"] is None
+        assert found["status"] == "qualitative"
+        assert sentence in found["follows"]

@@ -19,6 +19,16 @@ def bead(data, case: str, model: str):
     return data[f"bead_{case}_{model}"].sel(t=refined.t), refined
 
 
+def unknown(e, case: str, *models: str, until: float | None = None) -> Computed | None:
+    """What is said where a run ended before the time ``until``, or at all; None if none did."""
+    for model in models:
+        run = e.data[f"bead_{case}_{model}"]
+        ended = run.attrs.get("stopped_t", np.inf)
+        if ended < (np.inf if until is None else until):
+            return Computed(None, None, follows=f"not known: {run.attrs['stopped']}")
+    return None
+
+
 def spread(levels: np.ndarray) -> np.ndarray:
     """Uncertainty of level 0, from the mesh (levels 1, 2) and the time tolerance (3, 4)."""
     space = convergence_index(levels[1], levels[0], levels[2])
@@ -29,6 +39,8 @@ def radius(e, case: str, model: str) -> Computed | None:
     """Radius at the times at which the paper's curves were read, if there are any."""
     if not (times := e.cases[case]["published_times"]):
         return None
+    if ended := unknown(e, case, model, until=max(times)):
+        return ended
     at = {"t": times, "method": "nearest"}
     run, refined = bead(e.data, case, model)
     solved, doubt = run.radius.sel(**at).values, refined.radius_uncertainty.sel(**at).values
@@ -57,6 +69,8 @@ for _case, (_verb, _figure) in VERBS.items():
 @states("swell-lens-slower", "section 2.1", "bead_swelling_{lens,nonlinear}: radius")
 def lens_swells_slower(e):
     """The LENS radius stays below the nonlinear one while the bead swells."""
+    if ended := unknown(e, "swelling", "lens", "nonlinear"):
+        return ended
     (lens, of_lens), (nonlinear, of_nonlinear) = (
         bead(e.data, "swelling", m) for m in ("lens", "nonlinear")
     )
@@ -107,6 +121,8 @@ def steepest(t: np.ndarray, gradient: np.ndarray, after: float) -> float:
 @states("dry-plateau", "section 2.1", "bead_drying_lens: radius")
 def drying_plateau(e):
     """Drying slows down between these times (LENS: |da/dt| below its mean over the course)."""
+    if ended := unknown(e, "drying", "lens"):
+        return ended
     run, refined = bead(e.data, "drying", "lens")
     found = np.array([plateau(run.t.values, level) for level in refined.radius.values])
     return Computed(found[0], spread(found))
@@ -115,6 +131,8 @@ def drying_plateau(e):
 @states("dry-steep-at-5", "section 2.1", "bead_drying_lens: steepest_gradient")
 def steepest_drying(e):
     """Polymer-fraction gradients, past the initial jump, are largest at this time (LENS)."""
+    if ended := unknown(e, "drying", "lens"):
+        return ended
     run, refined = bead(e.data, "drying", "lens")
     peaks = [steepest(run.t.values, level, 1.0) for level in refined.steepest_gradient.values]
     return Computed(peaks[0], spread(np.array(peaks)))
@@ -122,6 +140,8 @@ def steepest_drying(e):
 
 def never_negative(e, case: str) -> Computed:
     """Whether D stays positive in all of a bead."""
+    if (stop := e.data[f"bead_{case}_lens"].attrs).get("stopped"):
+        return Computed(False, None, follows=stop["stopped"])
     run, refined = bead(e.data, case, "lens")
     worst = int(np.argmin(run.smallest_diffusivity.values))
     margin = float(run.smallest_diffusivity[worst])
@@ -145,6 +165,8 @@ def drying_enters_the_spinodal(e):
     if "stopped_t" not in e.data["bead_separating_lens"].attrs:
         return Computed(False, None)
     refined = e.data["refinement/bead_separating_lens"]
+    if "stop_time" not in refined:  # coarser or finer runs do not stop
+        return Computed(None, None, follows="not known: it depends on mesh and time steps")
     doubt = float(refined.stop_time_uncertainty)
     return Computed(True, doubt, float(refined.stop_time[0]), "at t_BMJ =")
 
@@ -155,6 +177,8 @@ def drying_enters_the_spinodal(e):
 def separation_criterion(e):
     """Phases separate where D < 0, also in the fully nonlinear model (304 to 308 K)."""
     stopped, gel = e.data["bead_separating_nonlinear"].attrs, e.gels["HHT"]
+    if "stopped_t" not in stopped:
+        return Computed(None, None, follows="not known: the nonlinear model stays parabolic")
     known = stopped["stopped_polymer_fraction"], stopped["temperature"]
 
     def diffusivity(phi, T):
@@ -178,6 +202,8 @@ def printed_digits(e):
     moves its last radius by less than it can be read to."""
     change = e.data["sensitivity_drying"].radius_change
     last = max(e.cases["drying"]["published_times"], default=e.cases["drying"]["end"])
+    if change.t[-1] < last:
+        return Computed(None, None, follows="not known: phases separate before")
     half = np.abs(change.sel(t=last, method="nearest"))
     readable = float(np.min(e.published["dry-radius-nonlinear"]["resolution"]))
     names = half.parameter_name.values

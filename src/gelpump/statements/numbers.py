@@ -78,18 +78,23 @@ def _listed(values) -> str:
     return ", ".join(f"{value:g}" for value in values)
 
 
+FEWEST = 4  # times from which numbers of a course are told
+
+
 def _deformed_bead(e, case: str, time: float) -> Told:
     whole, initial = f"bead_{case}_lens", e.config.beads[case]["temperature_initial"]
     phi_00, a_00 = (
         float(x) for x in (e.data[whole].polymer_fraction[0, 0], e.data[whole].radius[0])
     )
     of_root = root_uncertainty(e.gels[e.config.beads[case]["gel"]], phi_00, initial)
+    yield "phi_00 of the reference state", phi_00, of_root, ROUNDED, f"{whole}: polymer_fraction"
+    if e.data[whole].attrs.get("stopped_t", np.inf) <= time:
+        return
     run, refined = (each.sel(t=time, method="nearest") for each in bead(e.data, case, "lens"))
     a, phi = float(run.radius), float(run.surface_polymer_fraction)
     of_a, of_phi = (
         float(refined[f"{name}_uncertainty"]) for name in ("radius", "surface_polymer_fraction")
     )
-    yield "phi_00 of the reference state", phi_00, of_root, ROUNDED, f"{whole}: polymer_fraction"
     yield (
         f"radius in the reference state and at t_BMJ = {time:g}", [a_00, a],
         [a_00 / 3.0 * of_root / phi_00, of_a], REFINED, f"{whole}: radius", LENGTH,
@@ -106,7 +111,7 @@ def _bead(e, case: str) -> Told:
     runs = {  # none where a run stopped at once
         model: bead(e.data, case, model)
         for model in MODELS
-        if e.data[f"refinement/bead_{case}_{model}"].t.size
+        if e.data[f"refinement/bead_{case}_{model}"].t.size >= FEWEST
     }
     for model, (run, refined) in runs.items():
         name, from_radius = MODELS[model], f"bead_{case}_{model}: radius"
@@ -184,7 +189,8 @@ def _spinodal(e, gel: str, cases: Sequence[str]) -> Told:
                 refined.stop_time_uncertainty, REFINED,
                 f"refinement/bead_{case}_lens: stop_time", TIME,
             )  # fmt: skip
-        else:
+        elif refined.t.size:
+            run = run.sel(t=refined.t)
             least = int(np.argmin(run.smallest_diffusivity.values))
             yield (
                 f"smallest diffusivity, {case}", run.smallest_diffusivity[least],

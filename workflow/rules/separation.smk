@@ -13,7 +13,7 @@ SEPARATED = [
     *FRONTS,
     f"{DATA}/coexistence_{SEPARATION_GEL}.nc",
     *expand(
-        "results/figures/{figure}.{suffix}",
+        "results/separation/{figure}.{suffix}",
         figure=["figX5_front", "figX6_coexistence"],
         suffix=["pdf", "png", "svg", "csv"],
     ),
@@ -72,7 +72,7 @@ rule figX5_front:
         lens=f"{DATA}/separation_{DRAWN}_lens.nc",
         src=modules("figX5_front"),
     output:
-        expand("results/figures/figX5_front.{suffix}", suffix=["pdf", "png", "svg", "csv"]),
+        expand("results/separation/figX5_front.{suffix}", suffix=["pdf", "png", "svg", "csv"]),
     log:
         "results/logs/figX5_front.log",
     benchmark:
@@ -87,7 +87,7 @@ rule figX6_coexistence:
         phases=f"{DATA}/coexistence_{SEPARATION_GEL}.nc",
         src=modules("figX6_coexistence"),
     output:
-        expand("results/figures/figX6_coexistence.{suffix}", suffix=["pdf", "png", "svg", "csv"]),
+        expand("results/separation/figX6_coexistence.{suffix}", suffix=["pdf", "png", "svg", "csv"]),
     log:
         "results/logs/figX6_coexistence.log",
     benchmark:

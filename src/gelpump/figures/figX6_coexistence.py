@@ -41,7 +41,7 @@ def draw(material: "xr.Dataset", phases: "xr.Dataset") -> Figure:
         _sides(left, T, at, colour, f"nonlinear, $l_t = {float(at.hoop_stretch):g}$")
     left.set(xlim=span, ylim=(0, 0.85), xlabel="temperature $T$ (K)")
     left.set(ylabel=r"polymer fraction $\phi$")
-    left.legend(fontsize=6.5, loc="center right", bbox_to_anchor=(1.0, 0.42))
+    left.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.42))
     style.panel_label(left, "a")
     for model, colour, name in (
         ("lens", style.LENS, "$T^*(a)$, LENS"),

@@ -171,6 +171,16 @@ def collapse_time(e: Evidence) -> Computed:
     return Computed(slender.tau99_error.mean("wall_ell").values, error)
 
 
+@states("beyond-truth-wall", DOCS, f"{SLENDER}: tau99_resolved_error")
+def wall_of_truth(e: Evidence) -> Computed:
+    """tau_99 of walls heated everywhere (middle and mean, each ell), LENS resolved in the radius
+    with force balance at the surface, over that of these elements."""
+    error = e.data["slenderness"].tau99_resolved_error.sel(surface="balanced").values.ravel()
+    doubt = e.data["slenderness"].tau99_resolved_error_uncertainty.sel(surface="balanced")
+    expected = {"value": np.ones(error.size), "resolution": 0.02}
+    return Computed(1 + error, doubt.values.ravel(), paper=expected)
+
+
 @states("beyond-energy", DOCS, f"{WAVES}: jump_energy_M")
 def other_energy(e: Evidence) -> Computed:
     """Change of Phi's jump, over the jump, if the energy's second invariant stands for the first,

@@ -1,5 +1,6 @@
 """Figure X3, fields: the tube in two dimensions, and the sharpness of its front."""
 
+from string import ascii_lowercase
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,25 +26,27 @@ LINES = {"printed": "--", "conservative": ":"}
 
 
 def draw(pulses: "xr.Dataset", waves: "xr.Dataset", slender: "xr.Dataset"):
-    """Sections of the tubes at one time (a to c), Phi in the middle of the wall (d), A (e).
+    """Sections of the tubes at one time; then Phi in the middle of the wall, and A.
 
     pulses, waves: of ``truth.production``; slender: of ``truth.slenderness``.
     """
-    fig = style.figure(height=7.3)
-    grid = fig.add_gridspec(4, 2, height_ratios=[1, 1, 1, 1.7])
-    axes = [fig.add_subplot(grid[row, :]) for row in range(3)]
-    for ax, label, i in zip(axes, "abc", range(3), strict=True):
+    tubes = pulses.sizes["ell"]
+    fig = style.figure(height=2.75 + 1.5 * tubes)
+    grid = fig.add_gridspec(tubes + 1, 2, height_ratios=[1] * tubes + [1.7])
+    axes = [fig.add_subplot(grid[row, :]) for row in range(tubes)]
+    labels = ascii_lowercase[: tubes + 2]
+    for i, (ax, label) in enumerate(zip(axes, labels, strict=False)):
         mesh = _section(ax, pulses.isel(ell=i), label)
         style.panel_label(ax, label)
-        if label != "c":
+        if i < tubes - 1:
             ax.tick_params(labelbottom=False)
     axes[-1].set_xlabel(r"axial position from the front, $(z-Z_C)/a_1$")
     bar = fig.colorbar(mesh, ax=axes, pad=0.02, label=r"polymer fraction $\phi/\phi_{00}$")
     bar.set_ticks([1.0, 1.25, 1.5, 1.75, 2.0])
-    left, right = fig.add_subplot(grid[3, 0]), fig.add_subplot(grid[3, 1])
-    _profiles(left, pulses, slender)
-    _sharpness(right, waves, slender)
-    for ax, label in ((left, "d"), (right, "e")):
+    left, right = (fig.add_subplot(grid[tubes, column]) for column in range(2))
+    _profiles(left, pulses, slender, labels[-2])
+    _sharpness(right, waves, slender, labels[-1])
+    for ax, label in zip((left, right), labels[-2:], strict=True):
         style.panel_label(ax, label)
     return fig
 
@@ -125,7 +128,7 @@ def _arrows(ax, x, y, u, v, panel, where, look):
     style.tell(ax, panel, f"flow in the {where}", columns)
 
 
-def _profiles(ax, pulses, slender):
+def _profiles(ax, pulses, slender, panel):
     colours = style.ell_colours(pulses.ell.values)
     middle = pulses.sizes["across"] // 2
     for i, colour in enumerate(colours):
@@ -135,30 +138,30 @@ def _profiles(ax, pulses, slender):
         Phi = tube.Phi.values[:, middle - 1 : middle + 1].mean(axis=1)
         ax.plot(x, Phi, color=colour, label=rf"2D, $\ell={float(tube.ell):g}$")
         columns = {"(z-Z_C)/(a_1-a_0) [1]": x, Quantity.PHI: Phi}
-        style.tell(ax, "d", f"two dimensions at ell = {float(tube.ell):g}", columns)
+        style.tell(ax, panel, f"two dimensions at ell = {float(tube.ell):g}", columns)
     for closure, line in LINES.items():
-        here = slender.sel(closure=closure).isel(ell=1)
+        here = slender.sel(closure=closure).isel(ell=slender.sizes["ell"] // 2)
         x = here.z.values / (1 - float(here.ell))
         ax.plot(x, here.Phi, color=style.GREY, linestyle=line, label=f"slender, {closure}")
         columns = {"(z-Z_C)/(a_1-a_0) [1]": x, Quantity.PHI: here.Phi}
-        style.tell(ax, "d", f"slender {closure} at ell = {float(here.ell):g}", columns)
+        style.tell(ax, panel, f"slender {closure} at ell = {float(here.ell):g}", columns)
     ax.set(xlim=(-1.6, 1.6), ylim=(0.95, 2.06))
     ax.set(xlabel="$(z-Z_C)/(a_1-a_0)$", ylabel=r"$\phi/\phi_{00}$ in the mid-wall")
     ax.legend(loc="lower left", handlelength=1.6, fontsize=7, borderaxespad=0.3)
 
 
-def _sharpness(ax, waves, slender):
+def _sharpness(ax, waves, slender, panel):
     thickness = 1 - waves.ell.values
     colours = style.shades(style.LATER, waves.sizes["Pe"] + 1)[1:]
     for k, colour in enumerate(colours):
         A = waves.A.values[:, k]
         ax.plot(thickness, A, "o-", color=colour, markersize=2.6, linewidth=0.9)
         columns = {Quantity.THICKNESS: thickness, SHARP: A, "Pe [1]": float(waves.Pe[k])}
-        style.tell(ax, "e", "two dimensions", columns)
+        style.tell(ax, panel, "two dimensions", columns)
     tubes = 1 - slender.ell.values
     A = slender.A.sel(closure="printed").values[:, -1]
     ax.plot(tubes, A, "s", color=style.NONLINEAR, markersize=3.5, label="slender, printed, late")
-    style.tell(ax, "e", "slender printed", {Quantity.THICKNESS: tubes, SHARP: A})
+    style.tell(ax, panel, "slender printed", {Quantity.THICKNESS: tubes, SHARP: A})
     x = np.array([0.14, 0.4])
     for slope, at, label, k, align in (
         (-1, 1.05, "slope $-1$", 0, "right"),

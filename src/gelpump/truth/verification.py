@@ -11,7 +11,7 @@ from gelpump.materials.piecewise_linear import PiecewiseLinearGel
 from gelpump.netcdf import variable
 from gelpump.truth.elements import Material
 from gelpump.truth.gel import two_states
-from gelpump.truth.production import wave_numbers
+from gelpump.truth.numbers import wave_numbers
 from gelpump.truth.uniform import bead, undeformed, wall
 from gelpump.truth.wave import Wave
 

@@ -30,6 +30,7 @@ def problems(config: Mapping[str, Any]) -> Iterator[str]:
     for case, block in config["beads"].items():
         yield from _bead_problems(f"beads.{case}", block, gels, config["gels"])
     yield from _tube_problems(config)
+    yield from _truth_problems(config)
     yield from _choice_problems(config)
     yield from _published_problems(config)
 
@@ -123,6 +124,30 @@ def _tube_problems(config) -> Iterator[str]:
             for each in value if isinstance(value, list) else [value]:
                 if each not in allowed:
                     yield f"{name}.{key} = {each}: must be one of tube_pulse's, {allowed}"
+
+
+def _truth_problems(config) -> Iterator[str]:
+    truth = config["truth"]
+    waves, pulses, bead = truth["waves"], truth["pulses"], truth["bead"]
+    increasing = {
+        "truth.ell": truth["ell"],
+        "truth.M": truth["M"],
+        "truth.waves.Pe": waves["Pe"],
+        "truth.pulses.ell": pulses["ell"],
+        "truth.pulses.T": pulses["T"],
+        "truth.bead.t": bead["t"],
+    }
+    for key, values in increasing.items():
+        if any(b <= a for a, b in pairwise(values)):
+            yield f"{key} = {values}: must increase"
+    if waves["Pe"][0] != 0:
+        yield f"truth.waves.Pe = {waves['Pe']}: must begin with 0, a front at rest"
+    for name, block in (("waves", waves), ("pulses", pulses)):
+        if block["cells"][0] % 4:
+            yield f"truth.{name}.cells = {block['cells']}: the first must be a multiple of 4"
+    known = sorted(explicit_gels(config["gels"]))
+    if bead["gel"] not in known:
+        yield f"truth.bead.gel = {bead['gel']!r}: must be one of the gels with an energy, {known}"
 
 
 def _choice_problems(config) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""The README's map of figures, its commands and its example."""
+"""The README's commands and its example."""
 
 import re
 from pathlib import Path
@@ -7,14 +7,6 @@ import yaml
 
 PROJECT = Path(__file__).resolve().parents[1]
 README = (PROJECT / "README.md").read_text()
-RULES = "".join(file.read_text() for file in (PROJECT / "workflow/rules").glob("*.smk"))
-
-
-def test_every_figure_and_table_stands_in_the_map():
-    rules = set(re.findall(r"^(?:rule |(?:\w+_)?figure\(\s*\"?)((?:fig|table)\d\w+)", RULES, re.M))
-    mapped = set(re.findall(r"^\| ((?:fig|table)\d\w+) \|", README, re.M))
-    assert mapped == rules
-    assert len(rules) == 16
 
 
 def test_there_are_two_commands():

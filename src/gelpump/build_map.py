@@ -1,14 +1,39 @@
 """The map of a build: what each figure and table is drawn from, and how long it all takes.
 
 A build is a set of jobs, each with its rule, its inputs and its outputs; seconds are those that
-Snakemake measured of each job.
+Snakemake measured of each job.  From its datasets a figure leads to the modules that state their
+equations, from these to the paper's labels, in their docstrings, and to their tests, and by its
+number to what the paper prints or draws of it.
 """
 
+import ast
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+PACKAGE = Path(__file__).resolve().parent
 SHOWN = ("fig", "table")  # how the rules of what is shown begin
+UNMEASURED = "–"
+
+# The modules that state what is solved, by the rule that makes the dataset.
+MODELS = {
+    "materials": ("materials.energy_based",),
+    "bead_lens": ("bead.lens",),
+    "bead_nonlinear": ("bead.nonlinear",),
+    "coexistence": ("separation.coexistence",),
+    "separation_front": ("separation.sharp", "separation.lens_front"),
+    "deswelling_map": ("tube.deswelling",),
+    "deswelling_curves": ("tube.deswelling",),
+    "wall_times": ("tube.wall",),
+    "tube_pulse": ("tube.slender", "tube.heat"),
+    "refine_tube_pulse": ("tube.slender", "tube.heat"),
+    "front_fit": ("tube.front",),
+    "tube_flow": ("tube.wall_flow", "tube.lumen"),
+    "water_budget": ("tube.wall_flow",),
+    "lumen_pulse": ("tube.lumen",),
+    "pump_balance": ("tube.closure", "tube.pump"),
+}
 
 
 class Job(NamedTuple):
@@ -67,16 +92,104 @@ def measured(benchmark: str | Path) -> float:
 
 
 def table(rows: Iterable[Row], seconds: Mapping[str, float]) -> str:
-    """The map as Markdown; KeyError if a job's seconds are not known."""
+    """The map as Markdown; a job whose seconds were not measured yet leaves its figure's open."""
     lines = [
         "| figure or table (= rule) | datasets | seconds | from nothing |",
         "| --- | --- | ---: | ---: |",
     ]
     for row in rows:
         datasets = ", ".join(f"`{name}`" for name in row.datasets) or "the configuration"
-        alone, whole = seconds[row.jobs[-1]], sum(seconds[name] for name in row.jobs)
-        lines.append(f"| {row.rule} | {datasets} | {alone:.1f} | {whole:.1f} |")
+        alone, whole = (
+            f"{sum(seconds[name] for name in jobs):.1f}"
+            if seconds.keys() >= set(jobs)
+            else UNMEASURED
+            for jobs in (row.jobs[-1:], row.jobs)
+        )
+        lines.append(f"| {row.rule} | {datasets} | {alone} | {whole} |")
     return "\n".join(lines)
+
+
+def models(row: Row, jobs: Mapping[str, Job]) -> list[str]:
+    """Modules that state what a row's datasets solve; KeyError for a rule that ``MODELS`` lacks."""
+    solved = (jobs[name].rule for name in row.jobs[:-1])
+    return list(dict.fromkeys(module for rule in solved for module in MODELS[rule]))
+
+
+def labels(module: str) -> list[str]:
+    """The paper's equations that a module's docstring names, by their labels."""
+    text = (PACKAGE / f"{module.replace('.', '/')}.py").read_text(encoding="utf-8")
+    return list(
+        dict.fromkeys(re.findall(r"eqn:\w+(?::\w+)*", ast.get_docstring(ast.parse(text)) or ""))
+    )
+
+
+def test_of(module: str) -> str:
+    """The test of a module's physics."""
+    package, _, name = module.rpartition(".")
+    return f"tests/{package}/test_{name}.py"
+
+
+def place(rule: str) -> str:
+    """What the paper calls a figure or table: ``figure 9``; beyond it there is no such place."""
+    kind, number = re.match(r"(fig|table)(X?\d+)", rule).groups()
+    return f"{'figure' if kind == 'fig' else kind} {number.lstrip('0')}"
+
+
+def published(rule: str, statements: Iterable[Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """What the paper prints or draws of a figure, by the statements that stand there.
+
+    values: the block ``published`` of the configuration; a statement that only says how something
+    is, not how much, has the value True.
+    """
+    return {
+        each.id: values[each.id]["value"]
+        for each in statements
+        if each.id in values and place(rule) in _places(each.where)
+    }
+
+
+def _places(where: str) -> set[str]:
+    """Figures and tables in a place such as ``section 3.6, figures 10 and 11a``."""
+    named = re.findall(r"(figure|table)s? (\d+)[a-z]?(?: and (\d+))?", where)
+    return {f"{kind} {number}" for kind, *numbers in named for number in numbers if number}
+
+
+def model_table(
+    rows: Iterable[Row],
+    jobs: Mapping[str, Job],
+    statements: Iterable[Any],
+    values: Mapping[str, Any],
+) -> str:
+    """Equations, tests and published values of each figure and table, as Markdown."""
+    lines = [
+        "| figure or table | model: its equations in the paper | tests | datasets | published |",
+        "| --- | --- | --- | --- | --- |",
+    ]
+    for row in rows:
+        modules = models(row, jobs)
+        stated = [
+            f"[{module}](model.md#gelpump.{module}): "
+            + (", ".join(f"`{label}`" for label in labels(module)) or "derived there")
+            for module in modules
+        ]
+        cells = (
+            stated,
+            [f"`{test_of(module)}`" for module in modules],
+            [f"`{name}`" for name in row.datasets] or ["the configuration"],
+            _values(published(row.rule, statements, values)),
+        )
+        said = (f" {'<br>'.join(cell) or UNMEASURED} " for cell in cells)
+        lines.append(f"| {row.rule} |{'|'.join(said)}|")
+    return "\n".join(lines)
+
+
+def _values(published: Mapping[str, Any]) -> list[str]:
+    """``id``, and its value if that is a number or several."""
+    listed = {name: each if isinstance(each, list) else [each] for name, each in published.items()}
+    return [
+        f"`{name}`" + ("" if each == [True] else " " + ", ".join(f"{value:g}" for value in each))
+        for name, each in listed.items()
+    ]
 
 
 def between(marker: str, text: str) -> str:

@@ -87,6 +87,8 @@ rule renew_map:
         ends=ends_of_the_build,
         seconds="workflow/reference/seconds.json",
         readme="README.md",
+        models="docs/map.md",
+        published=config["published"],
         picture="results/figures/fig06_tube_schematic.png",
         shown="docs/pump.png",
     script:

@@ -8,7 +8,7 @@ with job(snakemake):
     from pathlib import Path
 
     from gelpump import build_map
-    from gelpump.statements import views
+    from gelpump.statements import paper, views
     from gelpump.text import write_json, write_text
 
     params = snakemake.params
@@ -26,15 +26,19 @@ with job(snakemake):
         raise SystemExit(
             f"{missing.filename} is missing: run `snakemake --cores 2` first"
         ) from None
-    readme = Path(params.readme)
-    text = readme.read_text(encoding="utf-8")
-    for marker, content in (
-        ("map", build_map.table(build_map.rows(jobs), seconds)),
-        ("verdict", views.headline(claims)),
+    rows = build_map.rows(jobs)
+    shown = build_map.model_table(rows, jobs, paper.statements, params.published)
+    for page, marker, content in (
+        (params.readme, "map", build_map.table(rows, seconds)),
+        (params.readme, "verdict", views.headline(claims)),
+        (params.models, "map", shown),
     ):
-        text = build_map.replaced(marker, text, content)
+        text = Path(page).read_text(encoding="utf-8")
+        write_text(build_map.replaced(marker, text, content), page)
     write_json(seconds, params.seconds)
-    write_text(text, readme)
     shutil.copyfile(params.picture, params.shown)
 
-print(f"{len(seconds)} jobs, {sum(seconds.values()):.0f} s: {params.seconds}, {readme}", flush=True)
+print(
+    f"{len(seconds)} jobs, {sum(seconds.values()):.0f} s: {params.seconds}, {params.readme}",
+    flush=True,
+)

@@ -23,6 +23,7 @@ SEPARATED = [
 rule separation:
     input:
         SEPARATED,
+        "results/separation/widths.nc",
         expand(
             f"{DATA}/separation_{{case}}_{{model}}.nc",
             case=SEPARATION["cases"],
@@ -94,3 +95,21 @@ rule figX6_coexistence:
         "results/benchmarks/figX6_coexistence.tsv"
     script:
         "../scripts/figX6_coexistence.py"
+
+
+rule separation_widths:
+    input:
+        sharp=f"{DATA}/separation_{DRAWN}_nonlinear.nc",
+        src=modules("separation_widths"),
+    output:
+        "results/separation/widths.nc",
+    log:
+        "results/logs/separation_widths.log",
+    benchmark:
+        "results/benchmarks/separation_widths.tsv"
+    params:
+        case=config["beads"][DRAWN] | {"end": SEPARATION["drawn"][DRAWN]},
+        gel=config["gels"][config["beads"][DRAWN]["gel"]],
+        widths=SEPARATION["widths"],
+    script:
+        "../scripts/separation_widths.py"

@@ -133,3 +133,45 @@ def with_uncertainty(run: "xr.Dataset", coarse: "xr.Dataset") -> "xr.Dataset":
             run = run.assign_attrs({f"{event}_uncertainty": float(doubt)})
     difference = xr.DataArray(run.radius - coarse.radius.interp(t=run.t))
     return run.assign_attrs(radius_uncertainty=float(abs(difference).max()))
+
+
+def towards_sharp(runs: "list[xr.Dataset]", sharp: "xr.Dataset") -> "xr.Dataset":
+    """Diffuse ``runs``, from the widest interface to the narrowest, against the ``sharp`` one.
+
+    Compared is the front's time from R = 0.7 to 0.3, whose error is of first order in the width:
+    the last two give its value at width 0, the last three (if there are) its uncertainty, else half
+    of the last correction.  ``order`` is that of the last two against the sharp run.
+    """
+    import xarray as xr
+
+    def between(run):
+        return passage(run, 0.3) - passage(run, 0.7)
+
+    def at_zero(i, j):
+        return took[j] + (took[j] - took[i]) * width[j] / (width[i] - width[j])
+
+    width = np.array([run.attrs["width"] for run in runs])
+    took, expected = np.array([between(run) for run in runs]), between(sharp)
+    limit = at_zero(-2, -1)
+    doubt = abs(limit - (at_zero(-3, -2) if len(runs) > 2 else 0.5 * (limit + took[-1])))
+    away = np.abs(took - expected)
+    return xr.Dataset(
+        {
+            "passage": variable("width", took, "time of the front from R = 0.7 to 0.3", TIME),
+            "passage_at_zero": variable((), limit, "the same, extrapolated to width 0", TIME),
+            "passage_at_zero_uncertainty": variable((), doubt, "numerical uncertainty of that"),
+            "passage_sharp": variable((), expected, "the same of the sharp front", TIME),
+            "order": variable(
+                (),
+                np.log(away[-2] / away[-1]) / np.log(width[-2] / width[-1]),
+                "order in the width",
+            ),
+            "radius": variable(
+                ("width", "t"), [run.radius.values for run in runs], "radius of the bead", LENGTH
+            ),
+        },
+        coords={
+            "t": runs[0].t,
+            "width": variable("width", width, "width of a flat interface at l_t = 2", LENGTH),
+        },
+    )

@@ -135,6 +135,23 @@ figure(
     {"balance": "pump_balance", "response": "pump_response"},
 )
 
+SEPARATING = next(iter(config["separation"]["drawn"]))
+figure(
+    "figX5_front",
+    "Beyond the paper",
+    "a bead that separates, to the end",
+    {model: f"separation_{SEPARATING}_{model}" for model in ("nonlinear", "lens")},
+)
+figure(
+    "figX6_coexistence",
+    "Beyond the paper",
+    "phases that meet at a front",
+    {
+        "material": f"materials_{config['separation']['coexistence']['gel']}",
+        "phases": f"coexistence_{config['separation']['coexistence']['gel']}",
+    },
+)
+
 FIGURES = expand(
     "results/figures/{figure}.{suffix}", figure=DRAWN, suffix=["pdf", "png", "svg", "csv"]
 )

@@ -3,7 +3,6 @@
 
 SEPARATION = config["separation"]
 SEPARATION_GEL = SEPARATION["coexistence"]["gel"]
-DRAWN = next(iter(SEPARATION["drawn"]))
 FRONTS = expand(
     f"{DATA}/separation_{{case}}_{{model}}.nc",
     case=SEPARATION["drawn"],
@@ -12,11 +11,6 @@ FRONTS = expand(
 SEPARATED = [
     *FRONTS,
     f"{DATA}/coexistence_{SEPARATION_GEL}.nc",
-    *expand(
-        "results/separation/{figure}.{suffix}",
-        figure=["figX5_front", "figX6_coexistence"],
-        suffix=["pdf", "png", "svg", "csv"],
-    ),
 ]
 
 
@@ -67,39 +61,9 @@ rule coexistence:
         "../scripts/coexistence.py"
 
 
-rule figX5_front:
-    input:
-        nonlinear=f"{DATA}/separation_{DRAWN}_nonlinear.nc",
-        lens=f"{DATA}/separation_{DRAWN}_lens.nc",
-        src=modules("figX5_front"),
-    output:
-        expand("results/separation/figX5_front.{suffix}", suffix=["pdf", "png", "svg", "csv"]),
-    log:
-        "results/logs/figX5_front.log",
-    benchmark:
-        "results/benchmarks/figX5_front.tsv"
-    script:
-        "../scripts/figX5_front.py"
-
-
-rule figX6_coexistence:
-    input:
-        material=f"{DATA}/materials_{SEPARATION_GEL}.nc",
-        phases=f"{DATA}/coexistence_{SEPARATION_GEL}.nc",
-        src=modules("figX6_coexistence"),
-    output:
-        expand("results/separation/figX6_coexistence.{suffix}", suffix=["pdf", "png", "svg", "csv"]),
-    log:
-        "results/logs/figX6_coexistence.log",
-    benchmark:
-        "results/benchmarks/figX6_coexistence.tsv"
-    script:
-        "../scripts/figX6_coexistence.py"
-
-
 rule separation_widths:
     input:
-        sharp=f"{DATA}/separation_{DRAWN}_nonlinear.nc",
+        sharp=f"{DATA}/separation_{SEPARATING}_nonlinear.nc",
         src=modules("separation_widths"),
     output:
         "results/separation/widths.nc",
@@ -108,8 +72,8 @@ rule separation_widths:
     benchmark:
         "results/benchmarks/separation_widths.tsv"
     params:
-        case=config["beads"][DRAWN] | {"end": SEPARATION["drawn"][DRAWN]},
-        gel=config["gels"][config["beads"][DRAWN]["gel"]],
+        case=config["beads"][SEPARATING] | {"end": SEPARATION["drawn"][SEPARATING]},
+        gel=config["gels"][config["beads"][SEPARATING]["gel"]],
         widths=SEPARATION["widths"],
     script:
         "../scripts/separation_widths.py"

@@ -117,6 +117,19 @@ DRAWINGS = {
         "volumes over the contrast of polymer fractions and over the shear parameter, dots on "
         "grey lines.",
     ),
+    "figX5_front": Drawing(
+        "A bead that separates, to the end",
+        "Left: falling curves of the bead's and of the front's radius over time in two models; "
+        "one front sets out at once, the other later, from crosses. Right: profiles of polymer "
+        "fraction with one vertical step each, dry outside and swollen inside, moving inwards.",
+    ),
+    "figX6_coexistence": Drawing(
+        "Phases that meet at a front",
+        "Left: a grey region of negative diffusivity in the plane of temperature and polymer "
+        "fraction between pairs of curves, nearly one for the dry side and several for the "
+        "swollen. Right: radius over the temperature at which separation begins, two rising "
+        "curves, and a falling dashed one of the critical hoop stretch.",
+    ),
     "verification": Drawing(
         "Errors of the solvers on known solutions",
         "Errors over the number of cells and of time steps on logarithmic axes, falling along "

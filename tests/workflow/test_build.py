@@ -38,7 +38,7 @@ def test_everything_is_built_once(built):
 
 def test_every_figure_has_key_numbers_with_their_uncertainty(built):
     numbers = json.loads((built.path / "results/tables/figure_numbers.json").read_text())
-    figures = {file.stem for file in (built.path / "results/figures").glob("fig*.png")}
+    figures = {file.stem for file in (built.path / "results/figures").glob("fig[0-9]*.png")}
     assert {row["figure"] for row in numbers} == figures
     assert len(figures) == 14
     for row in numbers:

@@ -43,6 +43,15 @@ def test_a_derivation_is_told_once():
     assert len(told) == len(set(told)) > 80
 
 
+def test_the_bead_that_separates_collapses():
+    page = (DOCS / "howto.md").read_text(encoding="utf-8")
+    scope = {}
+    exec(re.search(r"```python\n(.*?)```", page, re.S)[1], scope)
+    collapsed = scope["gel"].equilibrium_polymer_fraction(308.0)
+    assert float(scope["run"].radius[-1]) == pytest.approx(collapsed ** (-1 / 3), rel=1e-5)
+    assert float(scope["run"].radius[0]) == pytest.approx(scope["phi"] ** (-1 / 3), rel=1e-9)
+
+
 def test_every_page_is_in_the_sites_menu():
     config = yaml.safe_load((PROJECT / "mkdocs.yml").read_text(encoding="utf-8"))
     menu = re.findall(r"\w+\.md", yaml.safe_dump(config["nav"]))

@@ -168,13 +168,13 @@ def model_table(
     for row in rows:
         modules = models(row, jobs)
         stated = [
-            f"[{module}](model.md#gelpump.{module}): "
+            f"[{module}](../src/gelpump/{module.replace('.', '/')}.py): "
             + (", ".join(f"`{label}`" for label in labels(module)) or "derived there")
             for module in modules
         ]
         cells = (
             stated,
-            [f"`{test_of(module)}`" for module in modules],
+            [f"[{Path(test).stem}](../{test})" for test in map(test_of, modules)],
             [f"`{name}`" for name in row.datasets] or ["the configuration"],
             _values(published(row.rule, statements, values)),
         )

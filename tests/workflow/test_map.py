@@ -91,7 +91,7 @@ def test_every_figure_leads_to_its_module_its_test_and_its_dataset(workflow_jobs
             known = rf"^from gelpump(\.{package}\b| import .*\b{package}\b)"
             assert re.search(known, test, re.M), f"{build_map.test_of(module)} is not of {package}"
             assert re.search(r"^ *def test_", test, re.M)
-            assert re.search(rf"^::: gelpump\.{module}$", derived, re.M), module
+            assert re.search(rf"^\[gelpump\.{module}\]\(", derived, re.M), module
 
 
 def test_what_the_paper_shows_of_a_figure(values):

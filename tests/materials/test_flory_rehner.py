@@ -162,6 +162,8 @@ def test_thermodynamic_identities(gel):
         )
 
     np.testing.assert_allclose(gel.osmotic_modulus(phi, T), phi * along(gel.osmotic_pressure), 1e-7)
+    pressure = phi**2 * along(gel.osmotic_energy)
+    np.testing.assert_allclose(pressure, gel.osmotic_pressure(phi, T), rtol=1e-7, atol=1e-11)
     for phi_00 in (0.05, 1.0):
         deviatoric = 4 / 3 * gel.shear_modulus(phi_00) * np.cbrt(phi / phi_00)
         D = gel.osmotic_modulus(phi, T) + deviatoric
@@ -213,7 +215,7 @@ def test_the_gel_of_appendix_a_is_one_of_them(anb, hht):
             "temperature_range": [290.0, 320.0],
         })  # fmt: skip
         phi = np.geomspace(1e-4, 0.99, 50)
-        for each in ("osmotic_pressure", "diffusivity", "flux_potential"):
+        for each in ("osmotic_pressure", "diffusivity", "flux_potential", "osmotic_energy"):
             mine, theirs = (getattr(gel, each)(phi, 306.0) for gel in (new, old))
             np.testing.assert_allclose(mine, theirs, rtol=1e-9, atol=1e-13)
         np.testing.assert_allclose(new.folds().temperature, old.folds().temperature, rtol=1e-13)

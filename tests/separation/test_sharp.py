@@ -7,11 +7,12 @@ import pytest
 
 from gelpump.bead import lens, nonlinear
 from gelpump.materials import EnergyBasedGel
-from gelpump.separation import sharp
+from gelpump.separation import sharp, shells
 from gelpump.separation.coexistence import OnePhase
 from gelpump.separation.energy import ENERGIES
 
 HHT = EnergyBasedGel("HHT", A0=-62.22, A1=-58.28, B0=0.20470, B1=0.19044, Omega=720.0)
+ANB = EnergyBasedGel("ANB", A0=-12.947, A1=17.92, B0=0.04496, B1=-0.0569, Omega=100.0)
 SWOLLEN = HHT.equilibrium_polymer_fraction(304.0)
 TIMES = np.unique(np.concatenate([np.linspace(0.0, 0.5, 201), np.geomspace(1e-5, 0.5, 60)]))
 
@@ -105,3 +106,57 @@ def test_refusals(change, named):
 def test_unstable_start_is_refused():
     with pytest.raises(OnePhase, match="not stable"):
         sharp.solve(ENERGIES["lens"](HHT, 308.0), 0.3, TIMES, (40, 20), tolerance=1e-6)
+
+
+def test_front_born_at_the_critical_point_is_refused():
+    """ANB swelling from 310 to 303 K: its surface leaves where the two sides of a front are one."""
+    energy, dry = ENERGIES["nonlinear"](ANB, 303.0), ANB.equilibrium_polymer_fraction(310.0)
+    with pytest.raises(OnePhase, match="born at the critical point, which is not solved"):
+        sharp.solve(energy, dry, TIMES, (40, 20), tolerance=1e-6)
+
+
+def test_block_that_passes_through_its_spinodal_is_said():
+    """ANB swelling to 304.5 K: the outermost shell overshoots its surface in the first instant, and
+    a smooth course to a plausible end would follow."""
+    energy, dry = ENERGIES["nonlinear"](ANB, 304.5), ANB.equilibrium_polymer_fraction(310.0)
+    with pytest.raises(shells.Unsound, match=r"E = .*, not positive"):
+        sharp.solve(energy, dry, TIMES, (40, 20), tolerance=1e-6)
+
+
+def test_tangled_shells_stop_a_run(monkeypatch):
+    """One face is driven into its neighbour: the first accepted state beyond it ends the run."""
+    follow = sharp.Course.follow
+
+    def pushed(course, stage, start, tolerance):
+        rate = stage.rate
+
+        def tangling(y):
+            dydt = rate(y)
+            dydt[10] += 1e5
+            return dydt
+
+        stage.rate = tangling
+        return follow(course, stage, start, tolerance)
+
+    monkeypatch.setattr(sharp.Course, "follow", pushed)
+    energy = ENERGIES["nonlinear"](HHT, 307.5)
+    with pytest.raises(shells.Unsound, match="tangled"):
+        sharp.solve(energy, SWOLLEN, TIMES, (20, 10), tolerance=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("broken", "said"),
+    [
+        (lambda R, r: (R, np.where(R[7] == R, r[9], r)), "shells are tangled"),
+        (lambda R, r: (R, 0.3 * r), "tangled: its volume is"),
+        (lambda R, r: (R, r * np.nan), "tangled"),
+        (lambda R, r: (np.where(R == 1.0, 1.01, R), r), "of the bead's polymer"),
+        (lambda R, r: (R, 0.3 ** (-1 / 3) * R), "E = "),
+    ],
+)
+def test_states_that_no_bead_is_in_are_said(broken, said):
+    energy, R = ENERGIES["nonlinear"](HHT, 308.0), shells.clustered_outside(20)
+    r = SWOLLEN ** (-1 / 3) * R
+    shells.require_sound(energy, 0.0, R, r)
+    with pytest.raises(shells.Unsound, match=said):
+        shells.require_sound(energy, 0.1, *broken(R, r))

@@ -134,6 +134,15 @@ class FloryRehnerGel(ExplicitGel):
         mixing = log_tail(phi, 3) - phi**3 * (2 / 3 * c_1 + 0.75 * c_2 * phi + 0.8 * c_3 * phi**2)
         return elastic + self._ionic_potential(phi) + mixing
 
+    def osmotic_energy(self, phi: ArrayLike, T: ArrayLike) -> NDArray:
+        """Integral of Pi/phi^2 over phi: energy of a dry volume, -Pi its slope with J = 1/phi."""
+        phi = fraction(phi)
+        c_1, c_2, c_3 = self._coefficients(T)
+        elastic = (self.kappa * np.log(phi) + 1.5 * np.cbrt(phi) ** -2) / self.Omega
+        mixing = (1 / phi - 1) * np.log1p(-phi)
+        interaction = phi * (c_1 + phi * (c_2 / 2 + phi * c_3 / 3))
+        return elastic + mixing - interaction + self._ionic_energy(phi)
+
     def asymptotic_polymer_fraction(self, T: ArrayLike) -> NDArray:
         """phi_0 ~ [Omega (1/2 - c_1)]^{-3/5} for phi_0 << 1; nan past its end, or with charges."""
         excess = self.Omega * (0.5 - self._coefficients(T)[0])
@@ -173,6 +182,16 @@ class FloryRehnerGel(ExplicitGel):
     def _ionic_modulus(self, phi: NDArray) -> NDArray | float:
         """phi dPi_i/dphi = q^2/sqrt(q^2 + 4 c^2)."""
         return (self.charge * phi) ** 2 / self._ionic_strength(phi) if self.charge else 0.0
+
+    def _ionic_energy(self, phi: NDArray) -> NDArray | float:
+        """Integral of Pi_i/phi^2."""
+        if not self.charge:
+            return 0.0
+        if not self.salt:
+            return self.charge * np.log(phi)
+        q = self.charge * phi
+        shared = q / (self._ionic_strength(phi) + 2 * self.salt)
+        return self.charge * (np.arcsinh(q / (2 * self.salt)) - shared)
 
     def _ionic_potential(self, phi: NDArray) -> NDArray | float:
         """Integral of the ionic modulus, by its series where salt outweighs the charges."""

@@ -24,10 +24,11 @@ from gelpump import bdf
 from gelpump.bead import lens
 from gelpump.finite_volume import NewtonSweep
 from gelpump.separation import observed
+from gelpump.separation.blocks import CORE, Divided, graded_core
 from gelpump.separation.coexistence import Coexistence, Surface
 from gelpump.separation.energy import Lens
-from gelpump.separation.sharp import CORE, SKIN, Divided, graded_core
-from gelpump.separation.shells import interpolated, polymer_fraction
+from gelpump.separation.sharp import SKIN
+from gelpump.separation.shells import interpolated, polymer_fraction, require_sound
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -205,12 +206,9 @@ def _through(energy, times, cells, tolerance, skin, kept, events):
     start = np.append(y[:-1] ** 3, y[-1] ** 3)
 
     def keep(t, R, u, at):
-        states = (
-            t,
-            R,
-            np.append(0.0, np.cbrt(u)),
-            float(surface.polymer_fraction(np.cbrt(u[-1:]))[0]),
-        )
+        r = np.append(0.0, np.cbrt(u))
+        require_sound(energy, t, R, r)
+        states = t, R, r, float(surface.polymer_fraction(np.cbrt(u[-1:]))[0])
         for column, value in zip(kept, [*states, at], strict=True):
             column.append(value)
 
@@ -225,16 +223,17 @@ def _through(energy, times, cells, tolerance, skin, kept, events):
         first_step=FIRST_STEP,
         error_norm=front.norm,
     ):
+        y = np.cbrt(step.solution)
+        require_sound(energy, birth + step.time, front.mesh(y[-1] ** 3)[0], np.append(0.0, y[:-1]))
         while due.size and due[0] - birth <= step.time:
             z = step.at(due[0] - birth)
             at = np.cbrt([z[-1], z[divided.core - 1]])
             keep(due[0], front.mesh(z[-1])[0], z[:-1], at)
             due = due[1:]
-        if np.cbrt(step.solution[-1]) <= CORE:
+        if y[-1] <= CORE:
             break
     if not due.size:
         return
-    y = np.cbrt(step.solution)
     reached = birth + step.time
     events["completion_t"] = divided.completion(reached, y)
     shells = lens.Shells([sum(cells)])

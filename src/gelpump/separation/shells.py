@@ -36,6 +36,11 @@ def graded(cells: int, finest: float) -> NDArray:
 
 
 DENSEST = 1 - 1e-9  # trial steps of an integrator may tangle shells
+LOST = 1e-10  # share of the polymer that rounding may lose
+
+
+class Unsound(RuntimeError):
+    """A state that no bead is in: its words say what was met, when and where."""
 
 
 class Motion(NamedTuple):
@@ -109,3 +114,40 @@ def interpolated(R, r, faces):
     from scipy.interpolate import PchipInterpolator
 
     return np.cbrt(PchipInterpolator(R**3, r**3)(np.minimum(faces, 1.0) ** 3))
+
+
+def soundness(energy, R: NDArray, r: NDArray) -> dict[str, float]:
+    """Of shells with faces R, r, positive each while the shells are in order (J > 1: less
+    polymer than volume) and while they are stable: the least J - 1 and the least E."""
+    J, E = _state(energy, R, r)
+    return {"order": float(J.min() - 1), "stiffness": float(E.min())}
+
+
+def require_sound(energy, t: float, R: NDArray, r: NDArray) -> None:
+    """Unsound for shells that do not hold the bead's polymer, are tangled or have E <= 0."""
+    dry = np.diff(R**3)
+    if not (dry.min() > 0 and abs(dry.sum() - 1) <= LOST):
+        raise Unsound(f"at t = {t:.6g} the shells hold {dry.sum():.12g} of the bead's polymer")
+    if not min(soundness(energy, R, r).values()) > 0:
+        raise unsound(energy, t, R, r)
+
+
+def unsound(energy, t: float, R: NDArray, r: NDArray) -> Unsound:
+    """What is wrong with the worst shell."""
+    J, E = _state(energy, R, r)
+    tangled = not J.min() - 1 > min(E.min(), 0.0)
+    i = int(np.argmin(J if tangled else E))
+    where = f"at t = {t:.6g} in the shell between R = {R[i]:.6g} and {R[i + 1]:.6g}"
+    if tangled:
+        return Unsound(f"{where} shells are tangled: its volume is {J[i]:.6g} of its dry volume")
+    return Unsound(
+        f"{where} E = {E[i]:.3g}, not positive: inside the block a front is born, or its cells "
+        "do not resolve the layer ahead of one"
+    )
+
+
+def _state(energy, R, r):
+    """J of each shell, and its E."""
+    return np.diff(r**3) / np.diff(R**3), energy.stiffness(
+        polymer_fraction(R, r), at_means(R, r)[1]
+    )

@@ -38,7 +38,7 @@ class Clone:
             env=self.environment(),
             capture_output=True,
             text=True,
-            timeout=300,
+            timeout=1200,  # a build that hangs
             check=False,
         )
 

@@ -6,6 +6,7 @@ the checkout, and an edit elsewhere in the repository changes nothing here.
 
 import hashlib
 import json
+import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -78,3 +79,15 @@ class Provenance:
                 for path, sha256 in file_digests(outputs).items()
             },
         }
+
+
+def age_restored(records: Path = Path("results/provenance")) -> None:
+    """Make what failed jobs gave back as old as it was, by the records of the jobs that made it.
+
+    Snakemake restores copies, which would pass for results of what has changed since.
+    """
+    for record in records.rglob("*.json"):
+        made = record.stat().st_mtime
+        for output in json.loads(record.read_text("utf-8"))["outputs"]:
+            if os.path.exists(output) and os.path.getmtime(output) > made + 1:
+                os.utime(output, (made, made))

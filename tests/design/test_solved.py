@@ -5,11 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 import yaml
 from conventions import require_cf
 
 from gelpump import netcdf
-from gelpump.design import dataset, description, device, sheet
+from gelpump.design import dataset, description, device, front, sheet
 from gelpump.figures import design as drawing
 from gelpump.figures import style
 from gelpump.tube.pump import per_advance
@@ -176,3 +177,55 @@ def test_a_bead_heated_into_its_spinodal_has_its_sheet(step, when, tmp_path):
     assert "phases separate" in sheet.html(data, "<svg/>")
     netcdf.write(data, tmp_path / "bead.nc", "a bead that stops", {})
     assert list(dataset.csv_rows(netcdf.read(tmp_path / "bead.nc")))
+
+
+def test_a_bead_that_separates_is_told_of_its_front():
+    """The front's times are those of the sharp bead on a finer mesh, in seconds; red stays red."""
+    from gelpump.separation import energy, sharp
+
+    step = {"gel": "HHT", "critical_temperature": "305.5 K", "heating_step": "3 K"}
+    found, data = solved("bead", BEAD, **step)
+    gel, start = found.material.gel, found.material.own_start
+    run = sharp.solve(
+        energy.Nonlinear(gel, 308.5), start, np.linspace(0.0, 0.5, 11), (80, 40), tolerance=1e-6
+    )
+    R_dry, mu = 150e-6 * start ** (1 / 3), found.material.pressure_unit / gel.Omega
+    second = 0.89e-3 * R_dry**2 / (5e-18 * mu)
+    there, doubt = data.drying_front_time, float(data.drying_front_time_uncertainty)
+    assert abs(float(there) - second * run.completion_t) < doubt < 0.03 * float(there)
+    assert float(data.separation_time) == run.birth_t == 0.0
+    assert float(data.drying_front_speed) == pytest.approx(150e-6 / float(there))
+    assert int(data.light_one_phase) == 2
+    assert "response_time" not in data
+    assert front.BEAD_NOTE in sheet.notes(data)
+
+
+def test_a_tube_that_separates_is_told_of_a_bead_as_thick_as_its_wall(monkeypatch):
+    """Beside what is solved of the tube, which is not asked for here."""
+    from gelpump.design import solve
+
+    step = {"gel": "HHT", "critical_temperature": "305.5 K", "heating_step": "3 K"}
+    tube, bead = (description.read(PROJECT / f"config/designs/{name}.yaml")
+                  for name in ("microtube", "bead"))  # fmt: skip
+    monkeypatch.setattr(solve, "solve_tube", lambda design, numerics: (xr.Dataset(), []))
+    data, told = solve.solve(description.checked("tube", tube | step, GELS), TUBE)
+    same = {"radius": "25 um", "permeability": "1e-15 m^2"}
+    expected, _ = front.front_of(description.checked("bead", bead | step | same, GELS))
+    assert [each.key for each in told] == [each.key for each in expected]
+    for mine, theirs in zip(told, expected, strict=True):
+        assert mine.value == pytest.approx(theirs.value, rel=1e-9)
+    assert data.attrs["front_note"] == front.TUBE_NOTE
+
+
+def test_a_front_that_is_not_solved_is_no_number():
+    step = {"gel": "HHT", "critical_temperature": "305.5 K", "heating_step": "2.5 K"}
+    block = description.read(PROJECT / "config/designs/bead.yaml") | step
+    told, said = front.front_of(description.checked("bead", block, GELS))
+    assert told == []
+    assert said.startswith("Phases part, but no front is told: at t = ")
+
+
+def test_no_front_where_phases_do_not_part(bead, tube):
+    for _, data in (bead, tube):
+        assert "drying_front_time" not in data
+        assert "front_note" not in data.attrs

@@ -14,6 +14,7 @@ import xarray as xr
 from gelpump.design import units
 from gelpump.design.description import Design
 from gelpump.design.device import scales
+from gelpump.design.front import front_of, separates
 from gelpump.design.refined import levels, variable
 from gelpump.design.result import Result
 from gelpump.design.solve_tube import solve_tube
@@ -23,8 +24,13 @@ BEAD_CHANGE = 0.99
 
 
 def solve(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Result]]:
-    """The solved device, and the numbers measured on it."""
-    return solve_tube(design, numerics) if design.kind == "tube" else solve_bead(design, numerics)
+    """The solved device, and the numbers measured on it; of a gel that separates, its front's."""
+    solver = solve_tube if design.kind == "tube" else solve_bead
+    data, found = solver(design, numerics)
+    if separates(design, data.attrs.get("stopped", "")):
+        front, note = front_of(design)
+        return data.assign_attrs(front_note=note), found + front
+    return data, found
 
 
 def solve_bead(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Result]]:

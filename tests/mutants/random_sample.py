@@ -1,0 +1,299 @@
+"""A random sample of small changes, one at a time in a copy: which of them do the tests notice?
+
+    python tests/mutants/random_sample.py --count 200 --seed 1 --minutes 30
+
+The changes are those of Cosmic Ray (``tests/mutants/requirements.txt``): numbers, arithmetic,
+comparisons, signs and truth values. Every place of the physics, of the statements and of the
+designs where one is possible is as likely as any other; the seed says which are drawn, and then
+which change is made there. The tests of the changed module (``TESTS``) are run until one fails.
+
+A run goes on where the last one with the same seed and sources stopped. ``--again`` tries once more
+what survived, after tests have changed. With ``--record FILE`` the score and the survivors take
+their place in that file. Exit status 1 for a score below ``WORST``, and for a test that fails
+without any change.
+"""
+
+import argparse
+import compileall
+import contextlib
+import hashlib
+import json
+import multiprocessing
+import os
+import random
+import shutil
+import signal
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from recorded import record, table
+
+PROJECT = Path(__file__).resolve().parents[2]
+SOURCE = "src/gelpump"
+PARTS = ("Snakefile", "config", "profiles", "workflow", "src", "tests", "pyproject.toml")
+WORST = 0.6
+SECONDS = 120.0  # for the tests of one change; what needs more is not counted as caught
+HEAVY = ["numpy", "scipy.integrate", "scipy.interpolate", "scipy.optimize", "xarray", "netCDF4",
+         "pytest", "yaml", "hypothesis"]  # fmt: skip  # loaded once, for all the tests
+
+# module or package below gelpump: its tests, fast ones first; the longest name that fits is taken
+TESTS = {
+    "bdf": "tests/test_bdf.py tests/tube/test_slender.py",
+    "bead": "tests/bead/test_production.py tests/bead/test_nonlinear.py tests/bead/test_stops.py",
+    "bead/lens": "tests/bead/test_lens.py tests/bead/test_stops.py",
+    "bead/nonlinear": "tests/bead/test_nonlinear.py",
+    "coordinates": "tests/test_coordinates.py",
+    "design": "tests/design/test_design.py tests/design/test_solved.py",
+    "finite_volume": "tests/test_finite_volume.py tests/bead/test_lens.py",
+    "materials": "tests/materials",
+    "separation": "tests/separation/test_coexistence.py tests/separation",
+    "statements": "tests/statements",
+    "statements/truth": "tests/statements tests/truth/test_comparison.py",
+    "tridiagonal": "tests/test_finite_volume.py tests/bead/test_lens.py",
+    "truth": "tests/truth",
+    "tube": "tests/tube/test_heat.py tests/tube/test_slender.py tests/tube/test_wall_flow.py"
+    " tests/tube/test_lumen.py",
+    "tube/closure": "tests/tube/test_closure.py",
+    "tube/deswelling": "tests/tube/test_deswelling.py tests/tube/test_wall.py",
+    "tube/front": "tests/tube/test_front.py",
+    "tube/front_fit": "tests/tube/test_front.py",
+    "tube/pump": "tests/tube/test_pump.py tests/tube/test_lumen.py tests/statements/test_pumping.py",
+    "tube/wall": "tests/tube/test_wall.py",
+    "tube/wall_times": "tests/tube/test_wall.py tests/statements/test_pumping.py",
+    "tube/wave": "tests/tube/test_wave.py",
+    "uncertainty": "tests/test_uncertainty.py",
+}
+ARITHMETIC = ("Add", "Sub", "Mul", "Div", "Pow")
+ORDER = ("Eq", "NotEq", "Lt", "LtE", "Gt", "GtE")
+OPERATORS = [
+    *(f"ReplaceBinaryOperator_{a}_{b}" for a in ARITHMETIC for b in ARITHMETIC if a != b),
+    *(f"ReplaceComparisonOperator_{a}_{b}" for a in ORDER for b in ORDER if a != b),
+    *("ReplaceBinaryOperator_BitOr_BitAnd", "ReplaceBinaryOperator_BitAnd_BitOr"),
+    *("ReplaceUnaryOperator_USub_UAdd", "ReplaceUnaryOperator_Delete_Not", "AddNot"),
+    *("ReplaceTrueWithFalse", "ReplaceFalseWithTrue", "ReplaceAndWithOr", "ReplaceOrWithAnd"),
+    *("ReplaceBreakWithContinue", "ReplaceContinueWithBreak", "NumberReplacer"),
+]
+
+
+class Change(NamedTuple):
+    """The line of the file, what stands there, what shall, and the whole changed text."""
+
+    file: str
+    line: int
+    before: str
+    after: str
+    text: str
+
+    @property
+    def key(self) -> str:
+        return hashlib.sha256(f"{self.file}\n{self.text}".encode()).hexdigest()
+
+
+def tests_of(module: str) -> str:
+    """Of a module, as in "tube/front"; empty for one that is not in the sample."""
+    fitting = [name for name in TESTS if f"{module}/".startswith(f"{name}/")]
+    return TESTS[max(fitting, key=len)] if fitting else ""
+
+
+def annotates(node) -> bool:
+    """Whether a node is part of a type, where | is no operator."""
+    while node.parent is not None:
+        if node.parent.type in ("annassign", "tfpdef", "param"):
+            return True
+        if node.parent.type == "funcdef":
+            return node.parent.annotation is node
+        node = node.parent
+    return False
+
+
+class Sample:
+    """Changes in random order, each of them in another place."""
+
+    def __init__(self, seed: int):
+        from cosmic_ray.ast import ast_nodes, get_ast
+        from cosmic_ray.plugins import get_operator
+
+        self.random = random.Random(seed)
+        self.operators = {name: get_operator(f"core/{name}")() for name in OPERATORS}
+        self.places: dict[tuple, list] = {}  # (file, where): operators, each with its occurrence
+        for path in sorted((PROJECT / SOURCE).rglob("*.py")):
+            module = path.relative_to(PROJECT / SOURCE).with_suffix("").as_posix()
+            if not tests_of(module):
+                continue
+            count = dict.fromkeys(OPERATORS, 0)
+            for node in ast_nodes(get_ast(path.read_text(encoding="utf-8"))):
+                for name, operator in self.operators.items():
+                    for where in operator.mutation_positions(node):
+                        if not annotates(node):
+                            place = self.places.setdefault((path, where), [])
+                            place.append((name, count[name]))
+                        count[name] += 1
+
+    def __iter__(self):
+        from cosmic_ray.mutating import mutate_code
+
+        for path, where in self.random.sample(sorted(self.places), len(self.places)):
+            name, occurrence = self.random.choice(self.places[path, where])
+            text = path.read_text(encoding="utf-8")
+            changed = mutate_code(text, self.operators[name], occurrence)
+            with contextlib.suppress(SyntaxError):  # for ** of a dictionary, not of numbers
+                compile(changed, path.name, "exec")
+                lines = zip(text.splitlines(), changed.splitlines(), strict=True)
+                line, pair = next((i, each) for i, each in enumerate(lines) if each[0] != each[1])
+                yield Change(str(path.relative_to(PROJECT)), line + 1, *pair, changed)
+
+
+class First:
+    """As a plugin of pytest: the first test that fails, and what it says."""
+
+    test, said = "", ""
+
+    def pytest_runtest_logreport(self, report):
+        if report.failed and not self.test:
+            self.test = report.nodeid
+            crash = getattr(report.longrepr, "reprcrash", None)
+            self.said = crash.message if crash else str(report.longrepr)[-300:]
+
+    def pytest_collectreport(self, report):
+        self.pytest_runtest_logreport(report)
+
+
+def run(copy: Path, tests: list[str], answer) -> None:
+    """In a process of its own: send pytest's exit status, the first failing test, what it says."""
+    os.setsid()
+    os.chdir(copy)
+    os.environ["PYTHONPATH"] = str(copy / "src")
+    sys.path[:0] = [str(copy / "src")]
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for stream in (0, 1, 2):
+        os.dup2(nowhere, stream)
+    import pytest
+
+    first = First()
+    status = pytest.main(
+        ["-x", "-q", "-n", "0", "-m", "not browser", "-p", "no:cacheprovider", *tests], [first]
+    )
+    answer.send((int(status), first.test, first.said))
+
+
+class Bench:
+    """A copy of the project in which one change at a time is tried."""
+
+    def __init__(self, folder: Path):
+        self.copy = folder / "project"
+        self.copy.mkdir()
+        for part in PARTS:
+            if (PROJECT / part).is_dir():
+                ignored = shutil.ignore_patterns("__pycache__", "*.egg-info")
+                shutil.copytree(PROJECT / part, self.copy / part, ignore=ignored)
+            else:
+                shutil.copy2(PROJECT / part, self.copy / part)
+        compileall.compile_dir(self.copy / "src", quiet=2)
+        self.context = multiprocessing.get_context("forkserver")
+        self.context.set_forkserver_preload(HEAVY)
+        self.sound: dict[str, bool] = {}  # tests that pass without any change
+        self.tried = 0
+
+    def pytest(self, tests: list[str]) -> tuple[int, str, str] | None:
+        """Exit status, failing test and what it says; None when the time is over."""
+        mine, theirs = self.context.Pipe(duplex=False)
+        process = self.context.Process(target=run, args=(self.copy, tests, theirs))
+        process.start()
+        theirs.close()
+        try:
+            return mine.recv() if mine.poll(SECONDS) else None
+        except EOFError:
+            return 3, "the process", "died"
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            process.join()
+
+    def verdict(self, change: Change) -> dict:
+        """What became of a change; RuntimeError if its test fails without it, too."""
+        file = self.copy / change.file
+        module = file.relative_to(self.copy / SOURCE).with_suffix("").as_posix()
+        self.tried += 1
+        file.write_text(change.text, encoding="utf-8")
+        os.utime(file, (self.tried, self.tried))  # so that nobody takes older bytecode for it
+        try:
+            answer = self.pytest(tests_of(module).split())
+        finally:
+            shutil.copy2(PROJECT / change.file, file)
+        entry = change._asdict() | {"key": change.key, "test": "", "said": ""}
+        del entry["text"]
+        if answer is None:
+            return entry | {"verdict": "no end"}
+        status, test, said = answer
+        if status == 0:
+            return entry | {"verdict": "survived"}
+        if not test:
+            raise RuntimeError(f"{change.file}:{change.line}: pytest ends with {status}")
+        if "::" in test and test not in self.sound:
+            unchanged = self.pytest([test])
+            self.sound[test] = unchanged is not None and unchanged[0] == 0
+        if not self.sound.get(test, True):
+            raise RuntimeError(f"{test} fails without any change")
+        return entry | {"verdict": "caught", "test": test, "said": said}
+
+
+def kept(file: Path) -> dict[str, dict]:
+    """What earlier runs found, by key; of two verdicts on one change the later."""
+    lines = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
+    return {entry["key"]: entry for entry in map(json.loads, lines)}
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--minutes", type=float, default=30.0)
+    parser.add_argument("--again", action="store_true", help="try what survived once more")
+    parser.add_argument("--record", type=Path)
+    arguments = parser.parse_args()
+    deadline = time.monotonic() + 60.0 * arguments.minutes
+    found_before = PROJECT / f"build/random_mutants_{arguments.seed}.jsonl"
+    found_before.parent.mkdir(exist_ok=True)
+    known, found = kept(found_before), []
+    sample = Sample(arguments.seed)
+    with tempfile.TemporaryDirectory(prefix="mutants-") as folder:
+        bench = Bench(Path(folder))
+        for change, _ in zip(sample, range(arguments.count), strict=False):
+            entry = known.get(change.key)
+            if entry is None or (arguments.again and entry["verdict"] != "caught"):
+                if time.monotonic() > deadline:
+                    if entry is None:
+                        break  # the next run goes on here
+                else:
+                    entry = bench.verdict(change)
+                    with open(found_before, "a", encoding="utf-8") as stream:
+                        stream.write(json.dumps(entry) + "\n")
+                    print(f"{entry['verdict']:9s} {change.file.removeprefix(SOURCE + '/')}:"
+                          f"{change.line}: {change.after.strip()}", flush=True)  # fmt: skip
+            found.append(entry)
+    caught = sum(entry["verdict"] == "caught" for entry in found)
+    score = caught / max(len(found), 1)
+    counted = (
+        f"The tests noticed {caught} of {len(found)} random changes ({score:.0%}; seed "
+        f"{arguments.seed}, drawn from {len(sample.places)} places)."
+    )
+    print(counted)
+    if arguments.record:
+        rows = [
+            [f"{entry['file'].removeprefix(SOURCE + '/')}:{entry['line']}",
+             f"`{entry['before'].strip()}`", f"`{entry['after'].strip()}`", entry["verdict"]]
+            for entry in sorted(found, key=lambda entry: (entry["file"], entry["line"]))
+            if entry["verdict"] != "caught"
+        ]  # fmt: skip
+        heads = ["where", "line", "changed to", "verdict"]
+        record(arguments.record, "random mutants", counted, table(heads, rows))
+    return int(score < WORST)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

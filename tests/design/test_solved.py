@@ -48,6 +48,16 @@ def test_the_wall_sheds_the_water_of_its_collapse(tube):
     assert float(data.final_shed_volume) == pytest.approx(collapsed, rel=2e-2)
 
 
+def test_the_tube_has_the_radii_it_was_given(tube):
+    """Both shrink by Phi_1^{1/3}, from 50 and 100 um far ahead of the front."""
+    _, data = tube
+    for name, swollen in (("inner_radius", 50e-6), ("outer_radius", 100e-6)):
+        radius = data[name].values
+        np.testing.assert_allclose(radius * np.cbrt(data.polymer_ratio), swollen, rtol=1e-12)
+        assert radius[:, -1] == pytest.approx(swollen, rel=1e-4)
+        assert data[name].units == "m"
+
+
 def test_pumped_volumes_are_integrals_of_the_flow(tube):
     _, data = tube
     for form, rough in (("printed", 2e-2), ("conserving", 4e-2)):

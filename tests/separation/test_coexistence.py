@@ -44,6 +44,7 @@ def test_table_ends_where_the_two_phases_are_one():
     energy = ENERGIES["nonlinear"](HHT, 307.7)
     table = Coexistence.between(energy, 1.0, 3.5)
     assert table.critical
+    assert table.hoop_stretch[-1] == pytest.approx(3.5, rel=1e-12)
     l_t = table.hoop_stretch
     assert np.all(table.dry[1:] > table.swollen[1:])
     # the sides part like the root of the distance

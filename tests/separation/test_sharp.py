@@ -7,8 +7,8 @@ import pytest
 
 from gelpump.bead import lens, nonlinear
 from gelpump.materials import EnergyBasedGel
-from gelpump.separation import sharp, shells
-from gelpump.separation.coexistence import OnePhase
+from gelpump.separation import blocks, sharp, shells
+from gelpump.separation.coexistence import Coexistence, OnePhase, Surface
 from gelpump.separation.energy import ENERGIES
 
 HHT = EnergyBasedGel("HHT", A0=-62.22, A1=-58.28, B0=0.20470, B1=0.19044, Omega=720.0)
@@ -160,3 +160,25 @@ def test_states_that_no_bead_is_in_are_said(broken, said):
     shells.require_sound(energy, 0.0, R, r)
     with pytest.raises(shells.Unsound, match=said):
         shells.require_sound(energy, 0.1, *broken(R, r))
+
+
+def test_the_bead_stays_whole_at_the_front():
+    """[dr/dt] + [l_r] dR_f/dt = 0, where neither side is at rest."""
+    energy = ENERGIES["nonlinear"](HHT, 308.0)
+    R = shells.clustered_outside(40)
+    r = SWOLLEN ** (-1 / 3) * R * (1.0 - 0.05 * R**2)
+    a = float(r[-1])
+    dry = Surface.between(energy, "dry", 1.0, 1.01 * a, a)
+    divided = blocks.Divided(energy, Coexistence.between(energy, 1.0, 2.0), dry, True, 20, 10)
+    y = divided.born(R, r, 0.1, 0.05)
+    _, _, speed = divided.parts(y)
+    R_core, r_core, R_skin, r_skin = divided.blocks(y)
+    inside, outside = divided.at_front(y)
+    core = shells.motion(energy, R_core, r_core, None, inside)
+    skin = shells.motion(energy, R_skin, r_skin, outside, dry.state(r_skin[-1]))
+    within = core.rate[-1] + core.radial_stretch[-1] * speed
+    without = skin.rate[0] + skin.radial_stretch[0] * speed
+    assert within == pytest.approx(without, rel=1e-9)
+    assert abs(core.rate[-1]) > 1e-2 * abs(skin.rate[0])
+    assert divided.rate(y)[19] == pytest.approx(within, rel=1e-9)
+    assert divided.rate(y)[-1] == speed < 0

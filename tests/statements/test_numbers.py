@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from gelpump.statements import numbers
 from gelpump.statements.numbers import half_time, row
 from gelpump.statements.tubes import slope
+from gelpump.tube.front_fit import relative_error
 
 
 @pytest.mark.parametrize("count", [60, 120, 240])
@@ -45,3 +47,22 @@ def test_a_number_is_printed_to_its_uncertainty():
 def test_a_number_that_is_not_finite_is_an_error():
     with pytest.raises(ValueError, match="fig, radius"):
         row("fig", "radius", np.nan, 0.0, "refinement", "file")
+
+
+def test_uncertainties_between_refined_tubes_are_those_of_the_thickness():
+    """Relative, the largest of the times, linear in ln(1-ell), whatever the order of the tubes."""
+    ell, tau = np.array([0.9, 0.2, 0.6]), np.array([1e-3, 1e-2])
+    share = 1e-3 - 2e-4 * np.log(1.0 - ell)
+    A = np.array([[30.0, 40.0], [60.0, 20.0], [10.0, 80.0]])
+    refinement = xr.Dataset(
+        {
+            "A": (("level", "ell", "tau"), np.stack([A, 7.0 * A])),
+            "A_uncertainty": (("ell", "tau"), A * share[:, np.newaxis] * [1.0, 0.5]),
+        },
+        coords={"ell": ell, "tau": tau},
+    )
+    between = np.array([0.25, 0.5, 0.8])
+    expected = 1e-3 - 2e-4 * np.log(1.0 - between)
+    np.testing.assert_allclose(numbers._relative(refinement, "A", between), expected, rtol=1e-12)
+    found = relative_error(refinement, xr.Dataset(coords={"ell": between}))
+    np.testing.assert_allclose(found, expected[:, np.newaxis], rtol=1e-12)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 import yaml
 from statements.world import ELL, GELS, THIN, world
 
@@ -312,3 +313,15 @@ def test_nothing_is_told_of_a_bead_after_it_has_stopped(evidence, case, stop):
         assert found["computed"] is None
         assert found["status"] == "qualitative"
         assert sentence in found["follows"]
+
+
+@pytest.mark.parametrize(("end", "known"), [(1.0, True), (0.99, False)])
+def test_parameters_are_judged_if_the_drying_bead_comes_so_far(evidence, end, known):
+    last = max(evidence.cases["drying"]["published_times"])
+    old = evidence.data["sensitivity_drying"]
+    evidence.data["sensitivity_drying"] = xr.Dataset(
+        {"radius_change": (("parameter", "t"), np.full((2, 4), 1e-4))},
+        {"t": end * last * np.array([0.0, 0.3, 0.9, 1.0]), "parameter_name": old.parameter_name},
+    )
+    found = judged(evidence, "printed-digits-of-table-2")
+    assert (found["computed"] is not None) == known

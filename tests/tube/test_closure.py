@@ -9,6 +9,7 @@ from gelpump.known_solutions import tube as known
 from gelpump.known_solutions.table import require_all
 from gelpump.second_solvers import tube as second
 from gelpump.tube import slender
+from gelpump.tube.budget import water_budget
 from gelpump.tube.closure import named
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.slender import solve
@@ -59,6 +60,13 @@ def test_the_printed_wall_does_not_conserve_water():
     assert np.array_equal(printed.Phi1, again.Phi1)
     assert again.water_balance_error.max() < 6e-5  # it conserves length instead
     assert "loss" not in again
+
+
+def test_books_of_the_printed_wall_have_the_flow_of_its_velocities():
+    """Through the front's section, by the polymer's and the water's velocities of section 3.6.2."""
+    printed = solve(Tubes([0.3, 0.6]), HEAT, [1e-3, 4e-3], cells=(64, 40), books=True)
+    flow = water_budget(printed).axial_rate_front / (np.pi * (1 - printed.ell**2))
+    np.testing.assert_allclose(printed.axial_rate, flow, rtol=1e-4)
 
 
 def largest_error(run, reference):

@@ -105,3 +105,16 @@ def test_consistent_source_needs_no_other_solution():
     A, _ = front.sharpness(tubes)
     found = consistent_sharpness(np.array([0.5]), tau, A[:1], tau[-1])
     np.testing.assert_allclose(found, A[1, -1], rtol=1e-3)
+
+
+@pytest.mark.parametrize("own", [False, True])
+def test_the_window_is_what_it_says(own):
+    """An offset beyond half of the window leaves A, and makes half of the squared misfit."""
+    tubes = tubes_of(lambda x: front.tanh_profile(x, 2.0), faces=4001)
+    distance = np.abs((tubes.Z - tubes.Z_C).values)
+    length = 1 / SHARP if own else 0.1 * (1 - ELL[:, np.newaxis]) / 4 * np.ones((1, 2))
+    window = 2.0 if own else 8.0
+    tubes["Phi1"] = tubes.Phi1 + 0.01 * (distance > window / 2 * length[..., np.newaxis])
+    A, rms = front.sharpness(tubes, window, True) if own else front.sharpness(tubes)
+    np.testing.assert_allclose(A, SHARP, rtol=1e-10)
+    np.testing.assert_allclose(rms, 0.01 * np.sqrt(0.5), rtol=2e-3)

@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.integrate import quad
 
 from gelpump.materials import PiecewiseLinearGel
 from gelpump.tube import lumen
 from gelpump.tube.front import tanh_profile
 from gelpump.tube.heat import StepHeating
+from gelpump.tube.lumen_pulse import lumen_pulse
 from gelpump.tube.pump import volumes
 from gelpump.tube.slender import solve
 from gelpump.tube.tubes import Tubes
@@ -97,3 +99,26 @@ def test_a_wall_that_does_not_conserve_water_is_refused(pulse):
 def test_velocity_is_highest_at_the_front(pulse):
     wall, front = Wall.of(pulse), int(pulse.hot.sum())
     assert (lumen.velocity_printed(wall).argmax(axis=-1) == front).all()
+
+
+def test_the_dataset_of_the_pulse_says_one_thing_twice(pulse):
+    """Figure 12b at the A of 12a is the last curve of 12a, at its front and far ahead."""
+    tau = pulse.tau.values.tolist()
+    settings = {"tau": tau[:2], "drawn_A": 100.0, "A": [10.0, 500.0], "A_count": 5}
+    settings |= {"Z": [0.0, 1.5], "Z_count": 31}
+    fit = xr.Dataset(
+        {"exponent": 1.1, "exponent_uncertainty": 0.0, "prefactor": 32.0}
+        | {"A_tau": (("ell", "tau"), np.full((2, 3), 50.0))},
+        coords={"ell": pulse.ell, "tau": pulse.tau},
+    )
+    found = lumen_pulse(TABLE_1, {"eps": 0.1}, settings, pulse, fit)
+    at, last = found.sel(A=100.0), found.isel(tau=-1)
+    peak = last.V_plotted.sel(Z=float(last.Z_C))
+    np.testing.assert_allclose(at.V_max_plotted, peak, rtol=1e-12)
+    np.testing.assert_allclose(at.V_far_plotted, last.V_plotted[-1], rtol=1e-9)
+    np.testing.assert_allclose(at.V_max, last.V.sel(Z=float(last.Z_C)), rtol=1e-12)
+    before = 8.0 / (0.1 * (100.0 / 32.0) ** (-1 / 1.1)) ** 2
+    np.testing.assert_allclose(at.V_far, before * at.V_far_plotted, rtol=1e-12)
+    own = lumen.velocity_tanh(TABLE_1, 50.0, float(last.Z_C), float(last.Z_C))
+    expected = 8.0 / (0.1 * (1.0 - pulse.ell.values)) ** 2 * own
+    np.testing.assert_allclose(last.V_front_tanh, expected, rtol=1e-12)

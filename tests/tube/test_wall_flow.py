@@ -142,3 +142,21 @@ def test_share_of_a_thin_wall():
     mean = quad(lambda s: s * wall_flow.source_coefficient(ell) / (1 - ell) ** 2, ell, 1)[0]
     ends = wall_flow._slope_consistent(1.0, ell) - ell * wall_flow._slope_consistent(ell, ell)
     assert np.isclose(mean, ends)
+
+
+def test_tubes_of_one_wall_length_differ_by_their_cross_sections():
+    """With eps (1-ell) the same, Phi_1(Z) is: what the wall moves goes with its area, and what
+    the printed slopes let out of an edge with its circumference and thickness."""
+    ell = np.array([0.25, 0.75])
+    tubes = Tubes(ell, 0.1 * 0.75 / (1 - ell))
+    pulse = solve(tubes, StepHeating(), np.geomspace(1e-3, 4e-3, 4), cells=(48, 30), tolerance=1e-4)
+    found = water_budget(pulse)
+    for name, size in {
+        "axial_rate_front": 1 - ell**2,
+        "shed_rate": 1 - ell**2,
+        "shed_volume": 1 - ell**2,
+        "outer_rate_printed": 1 - ell,
+        "lumen_rate_printed": ell * (1 - ell),
+    }.items():
+        one, other = found[name].values / np.expand_dims(size, tuple(range(1, found[name].ndim)))
+        np.testing.assert_allclose(one, other, rtol=1e-5, err_msg=name)

@@ -24,7 +24,10 @@ def jobs_of_dry_run(said: str) -> dict[str, Job]:
         rule = re.match(r"(?:local)?rule (\w+):", block)
         told = dict(re.findall(r"^    (input|output|benchmark): (.*)$", block, re.M))
         if rule and "benchmark" in told:
-            files = [told.get(key, "").split(", ") for key in ("input", "output")]
+            files = [
+                told.get(key, "").replace(" (update)", "").split(", ")
+                for key in ("input", "output")
+            ]
             inputs, outputs = ([file for file in kind if file] for kind in files)
             read = sorted(file for file in inputs if not file.endswith(".py"))
             jobs[Path(told["benchmark"]).stem] = Job(rule[1], tuple(read), tuple(outputs))

@@ -21,6 +21,9 @@ PAPER = (
 )
 
 
+LABEL = "_name"  # after that of the dimension which it labels
+
+
 Variable = tuple[Any, Any, dict[str, str]]
 """Dimensions, values and attributes, as xarray takes them."""
 
@@ -49,7 +52,7 @@ def write(
     written.
     """
     _require_finite(dataset, title, flag)
-    dataset = dataset.assign_attrs(
+    dataset = _labelled(dataset).assign_attrs(
         Conventions="CF-1.11",
         title=title,
         institution="gelpump, a replication project",
@@ -75,6 +78,12 @@ def write(
         dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4", encoding=encoding)
 
 
+def _labelled(dataset):
+    """Names along a dimension as CF has them: labels, under a name that is not the dimension's."""
+    names = [str(each) for each in dataset.indexes if dataset[each].dtype.kind in "OU"]
+    return dataset.reset_index(names).rename_vars({name: f"{name}{LABEL}" for name in names})
+
+
 def _require_finite(dataset, title, flag):
     for name, each in dataset.variables.items():
         if each.dtype.kind == "f":
@@ -87,10 +96,17 @@ def _require_finite(dataset, title, flag):
 
 
 def read(path: str | Path) -> "xr.Dataset":
-    """The whole dataset of ``path`` in memory."""
+    """The whole dataset of ``path`` in memory; labels of a dimension index it."""
     import xarray as xr
 
-    return xr.load_dataset(path, engine="netcdf4")
+    dataset = xr.load_dataset(path, engine="netcdf4")
+    labels = {
+        f"{name}{LABEL}": name for name in dataset.dims if f"{name}{LABEL}" in dataset.variables
+    }
+    named = dataset.rename_vars(labels).set_coords(labels.values())
+    for name in labels.values():
+        named = named.set_xindex(name)
+    return named
 
 
 def read_all(paths: Iterable[str | Path], folder: str | Path) -> dict[str, "xr.Dataset"]:

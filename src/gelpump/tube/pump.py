@@ -275,7 +275,6 @@ def joined(pulses: Mapping[str, xr.Dataset]) -> xr.Dataset:
     names = xr.Variable("closure", list(conserving), {"long_name": "closure of the slender tube"})
     same = ("Z_C", "hot", "eps", "M", "Pi_ratio", "Phi_inf")
     parts = [pulse.drop_vars(same) for pulse in conserving.values()]
-    whole = xr.concat(parts, names, data_vars="all", combine_attrs="drop")
-    return whole.assign({key: next(iter(conserving.values()))[key] for key in same}).assign_attrs(
-        attrs
-    )
+    whole = xr.concat(parts, names, data_vars="all", combine_attrs="override")
+    shared = {key: next(iter(conserving.values()))[key] for key in same}
+    return whole.drop_attrs(deep=False).assign(shared).assign_attrs(attrs)

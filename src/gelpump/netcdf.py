@@ -21,7 +21,7 @@ PAPER = (
 )
 
 
-LABEL = "_name"  # after that of the dimension which it labels
+LABEL = "_label"  # after that of the dimension which it labels
 
 
 Variable = tuple[Any, Any, dict[str, str]]

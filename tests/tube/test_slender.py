@@ -210,3 +210,28 @@ def test_length_out_of_equilibrium_does_not_count_whole_cells():
     )
     np.testing.assert_allclose(coarse, fine, rtol=0.015)
     assert not np.allclose(coarse, fine, rtol=1e-4)  # they are two computations
+
+
+@pytest.mark.parametrize("closure", ["printed", "conservative"])
+def test_cells_tolerance_and_output_times_change_no_answer_beyond_its_error(closure):
+    """A scan: each run ends at the last time asked for, and tells the same front."""
+    tubes = Tubes(np.array([0.25, 0.75]))
+    times = ([0.01], [1e-6, 0.01], list(np.linspace(0.0005, 0.01, 20)))
+
+    def front(cells, tolerance, tau):
+        found = slender.solve(
+            tubes, StepHeating(10.0), tau, cells=cells, tolerance=tolerance, closure=closure
+        )
+        assert found.tau.values[-1] == tau[-1]
+        return found.Phi1_front.values[:, -1]
+
+    reference = front((128, 80), 1e-5, times[0])
+    errors = {
+        (cells, tolerance): max(
+            np.abs(front(cells, tolerance, tau) / reference - 1).max() for tau in times
+        )
+        for cells in ((24, 16), (48, 32))
+        for tolerance in (1e-3, 1e-4)
+    }
+    assert all(error < 5e-3 for (cells, _), error in errors.items() if cells == (24, 16)), errors
+    assert all(error < 2e-3 for (cells, _), error in errors.items() if cells == (48, 32)), errors

@@ -30,37 +30,6 @@ from gelpump.tube.production import family_ell
 
 BEADS = [(16, 1e-3), (24, 3e-4), (32, 1e-4)]
 TUBES = [(16, 10, 1e-3), (24, 16, 1e-3), (32, 20, 3e-4), (48, 30, 2e-4)]
-SWEEPS = 100  # that an iteration without Newton's may take
-
-
-class Lagged(lens.Bead):
-    """Picard's iteration: geometry and surface, as coefficients, are those of the last sweep."""
-
-    def linearised(self, u, alpha, history):
-        conductance, c, G = super().linearised(u, alpha, history)
-        shells, a = self.shells, self.radius(u)
-        geometry = shells.R * shells.gap / (6.0 * u ** (4.0 / 3.0))
-        c += geometry * 4.0 / 3.0 * (alpha * u + history) / u
-        c[shells.outer] += 4.0 * self.surface.polymer_fraction(a) / (3.0 * a**4)
-        return conductance, c, G
-
-    def advance(self, t, guess, alpha, history):
-        u, previous = guess, np.inf
-        for _ in range(SWEEPS):
-            du = self.sweep.correction(*self.linearised(u, alpha, history))
-            u = u + du
-            if not np.all(np.isfinite(u)) or u.min() <= 0.0:
-                raise bdf.NotConverged
-            change = self.displacement_norm(u, du)
-            if change > previous:
-                raise bdf.NotConverged
-            # each sweep leaves about the same share of the error: what all others would change
-            share = change / previous
-            if share < 1.0 and change * share / (1.0 - share) <= self.accuracy:
-                self.require_one_phase(u)
-                return u
-            previous = change
-        raise bdf.NotConverged
 
 
 class EvenTubes(slender.Family):
@@ -136,7 +105,6 @@ def of_beads() -> list[dict]:
     best = _seconds(problem, "as it is", ours, BEADS)
     tight = [(32, tolerance) for tolerance in (1e-3, 1e-4, 3e-5, 1e-5)]
     tries = [
-        ("Newton's linearisation", "Picard's", without(ours, (lens, "Bead", Lagged)), BEADS),
         ("third order in time", "second order", bead_of_order(2), tight[:3]),
         ("third order in time", "first order", bead_of_order(1), tight),
         (

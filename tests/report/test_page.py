@@ -41,7 +41,7 @@ def test_it_is_small_and_complete(page, text):
     for word in ("NaN", "undefined", ">None<", "nan ", "{%"):
         assert word not in visible, word
     assert not re.findall(r'(?:src|href)="https?:', visible)
-    assert visible.count("<img ") == 15
+    assert visible.count("<img ") == 20
 
 
 def test_links_lead_somewhere(page, text):

@@ -31,7 +31,7 @@ def test_every_figure_tells_its_numbers_with_their_units(built):
         table = pd.read_csv(file, comment="#")
         assert list(table)[:2] == ["panel", "series"]
         for column in list(table)[2:]:
-            assert re.fullmatch(r"\S+ \[\S.*\]", column), (file.name, column)
+            assert re.fullmatch(r"\S.* \[\S.*\]", column), (file.name, column)
             assert np.isfinite(table[column].dropna()).all()
         rows = re.findall(r"^# panel (\w), (.*?); (\d+) rows: .*$", text, re.M)
         assert sum(int(count) for *_, count in rows) == len(table) > 10, file.name

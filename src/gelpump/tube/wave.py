@@ -68,15 +68,6 @@ STATED = {  # the three parts of the uncertainty, of relative errors
     "V_far": (1.3e-3, 0.5, 1.5),
     "pulse_flux": (1.0e-3, 1.2, 4.0),
 }
-DELAY = 0.4  # of tau_99
-STATED = {  # the three parts of the uncertainty, of relative errors
-    "A": (1.0e-3, 0.5, 3.0),
-    "Phi1_front": (6.0e-4, 0.15, 0.5),
-    "departed_length": (1.5e-3, 0.5, 3.0),  # pulses interpolate it, within 1e-3
-    "V_peak": (1.3e-3, 0.5, 1.5),
-    "V_far": (1.3e-3, 0.5, 1.5),
-    "pulse_flux": (1.0e-3, 1.2, 4.0),
-}
 POINT, WEIGHT = np.polynomial.legendre.leggauss(3)
 
 

@@ -35,7 +35,7 @@ def built(tmp_path_factory) -> Clone:
     return clone
 
 
-SLOWER = ("hostile", "verification", "second", "test_verify.py")
+SLOWER = ("hostile", "known_solutions", "second_solvers", "test_verify.py")
 
 
 def pytest_collection_modifyitems(items):

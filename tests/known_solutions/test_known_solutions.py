@@ -3,9 +3,16 @@
 import numpy as np
 import pytest
 
-from gelpump.known_solutions import bead, tube
-from gelpump.known_solutions.study import ORDER, Study, one_run, space
-from gelpump.known_solutions.table import NotVerified, markdown, require_all
+from gelpump.known_solutions import bead, manufactured, tube
+from gelpump.known_solutions.study import (
+    ORDER,
+    NotVerified,
+    Study,
+    markdown,
+    one_run,
+    require_all,
+    space,
+)
 
 
 @pytest.mark.parametrize("model", [bead, tube], ids=["bead", "tube"])
@@ -34,8 +41,8 @@ def test_barenblatt_conserves_the_polymer():
 
 
 def test_the_manufactured_tube_has_a_jump_and_an_integral():
-    problem = tube.Manufactured(tube.TUBE, tube.HEAT)
-    tau, Z_C = problem.end, float(tube.HEAT.front(problem.end))
+    problem = manufactured.Manufactured(manufactured.TUBE, manufactured.HEAT)
+    tau, Z_C = problem.end, float(manufactured.HEAT.front(problem.end))
     at = np.array([Z_C])
     (Phi, slope, _), (Phi_ahead, slope_ahead, _) = (problem.Phi(at, tau, h) for h in (True, False))
     D, D_ahead = (problem.diffusivity(Phi, s) for s in (problem.hot[0], problem.cold[0]))

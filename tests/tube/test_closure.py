@@ -5,8 +5,9 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
+from gelpump.known_solutions import manufactured
 from gelpump.known_solutions import tube as known
-from gelpump.known_solutions.table import require_all
+from gelpump.known_solutions.study import require_all
 from gelpump.second_solvers import tube as second
 from gelpump.tube import slender
 from gelpump.tube.budget import water_budget
@@ -104,16 +105,16 @@ def test_a_second_solver_agrees(closure):
 
 
 def test_manufactured_solution_with_the_balance_of_forces():
-    require_all(known.spreading_front("balanced"))
+    require_all(manufactured.spreading_front("balanced"))
 
 
 def test_a_wrong_term_misses_the_manufactured_solution(monkeypatch):
     closure = named("conservative")
     monkeypatch.setattr(type(closure), "conductivity", lambda self, y, s, M: 3 * s / y**3)
-    _, error, _ = known.manufactured((16, 16), 1e-4, "printed")
+    _, error, _ = manufactured.manufactured((16, 16), 1e-4, "printed")
     assert np.abs(error).max() < 4e-3
     monkeypatch.setattr(type(closure), "potential", lambda self, y, s, M: -1.5 * s / y**2)
-    _, error, _ = known.manufactured((16, 16), 1e-4, "conservative")
+    _, error, _ = manufactured.manufactured((16, 16), 1e-4, "conservative")
     assert np.abs(error).max() > 2e-2
 
 

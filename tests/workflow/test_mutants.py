@@ -1,5 +1,6 @@
 """The deliberate bugs of tests/mutants still find what they change; run.py tries them."""
 
+import ast
 import importlib.util
 from pathlib import Path
 
@@ -29,20 +30,50 @@ def test_its_tests_are_there(tests):
     assert (PROJECT / tests).exists()
 
 
-@pytest.mark.parametrize(("module", "tests"), random_sample.TESTS.items())
-def test_random_changes_have_modules_and_tests(module, tests):
+@pytest.mark.parametrize("module", random_sample.CHANGED)
+def test_random_changes_have_modules(module):
     source = PROJECT / random_sample.SOURCE / module
     assert source.is_dir() or source.with_suffix(".py").exists()
-    paths = [PROJECT / each for each in tests.split()]
-    assert all(path.exists() for path in paths)
-    # pytest passes over a folder of which a file was named before
-    assert not any(one in other.parents for one in paths for other in paths)
+    assert random_sample.is_changed(module)
 
 
-def test_the_nearest_entry_has_the_tests_of_a_module():
-    found = random_sample.tests_of
-    assert found("tube/front") == random_sample.TESTS["tube/front"]
-    assert found("tube/ledger") == random_sample.TESTS["tube"]
-    assert found("bead/sensitivity") == random_sample.TESTS["bead"]
-    assert not found("figures/style")
-    assert not found("tubes")
+def test_what_draws_is_not_changed():
+    assert random_sample.is_changed("tube/front")
+    assert not random_sample.is_changed("figures/style")
+    assert not random_sample.is_changed("tubes")
+
+
+@pytest.mark.parametrize("each", random_sample.equivalents())
+def test_what_changes_nothing_is_there_and_explained(each):
+    file, before, _ = each
+    assert before in (PROJECT / random_sample.SOURCE / file).read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("line", "lines", "inside"),
+    [(1, [1], False), (3, [3, 4], False), (5, [5, 6], True), (7, [7], True), (8, [8], True)],
+)
+def test_a_change_belongs_to_its_statement(line, lines, inside):
+    text = "a = 1\n\ndef f(\n    x=1):\n    y = (x +\n         1)\n    if y:\n        return y\n"
+    found, within = random_sample.statement_lines(ast.parse(text), line)
+    assert (list(found), within) == (lines, inside)
+
+
+def test_the_tests_that_run_a_statement_come_first(monkeypatch):
+    """Those of it, cheap files first; then the others of these files, as far as time goes."""
+    covered = {
+        "tests/slow.py": {"seconds": {"tests/slow.py::a": 9.0, "tests/slow.py::b": 40.0},
+                          "lines": {"bdf": {"66": ["tests/slow.py::a"]}}},
+        "tests/fast.py": {"seconds": {"tests/fast.py::c": 2.0, "tests/fast.py::d": 1.0},
+                          "lines": {"bdf": {"66": ["tests/fast.py::c"]}}},
+        "tests/else.py": {"seconds": {"tests/else.py::e": 0.1},
+                          "lines": {"bdf": {"1": ["tests/else.py::e"]}}},
+    }  # fmt: skip
+    bench = object.__new__(random_sample.Bench)
+    bench.covered = covered
+    monkeypatch.setattr(random_sample, "statement_lines", lambda *of: (range(66, 68), True))
+    change = random_sample.Change("src/gelpump/bdf.py", 66, "", "", "")
+    files, tests, seconds = bench.tests(change)
+    assert files == ["tests/fast.py", "tests/slow.py"]
+    assert [test[-1] for test in tests] == ["c", "a", "d"]
+    assert seconds == 12.0

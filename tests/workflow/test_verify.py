@@ -158,7 +158,7 @@ def test_all_that_is_wrong_is_named_at_once(renewed):
         with netCDF4.Dataset(renewed.path / DATASET, "a") as dataset:
             dataset["osmotic_pressure"].delncattr("units")
             dataset.delncattr("Conventions")
-            dataset["fold_temperature"][0] += 0.01
+            dataset["spinodal_tip_temperature"][...] += 0.01
         quick = (renewed.path / "config/quick.yaml").read_text()
         changed.write_text(quick + "\nscales:\n  permeability: 2.0e-15\n")
         try:
@@ -177,7 +177,7 @@ def test_all_that_is_wrong_is_named_at_once(renewed):
         "leftover: results/data/tube_of_last_year.nc: ",
         f"cf:1.11: {DATASET}: osmotic_pressure has no units",
         f"cf:1.11: {DATASET}: §2.6.1 Conventions field is not present",
-        "differs: materials_ANB: fold_temperature(fold=0): ",
+        "differs: materials_ANB: spinodal_tip_temperature: ",
         "stale: results/figures/fig13_osmotic.pdf: input results/data/materials_ANB.nc has changed",
     ):
         assert told in said, told
@@ -193,14 +193,14 @@ def test_an_altered_number_fails_even_if_its_digest_is_forged(examined):
     with kept(HERE, DATASET, "results/manifest.json"):
         before = json.loads(Path("results/manifest.json").read_text())
         with netCDF4.Dataset(DATASET, "a") as dataset:
-            dataset["fold_temperature"][0] += 0.01
+            dataset["spinodal_tip_temperature"][...] += 0.01
         before["outputs"][DATASET]["sha256"] = file_digest(DATASET)
         Path("results/manifest.json").write_text(json.dumps(before))
         problems, _ = examined()
     said = "\n".join(problems)
-    assert "differs: materials_ANB: fold_temperature(fold=0): " in said
+    assert "differs: materials_ANB: spinodal_tip_temperature: " in said
     assert "altered: results/ro-crate-metadata.json: " in said
-    assert "fold_temperature(fold=1)" not in said
+    assert "materials_HHT: spinodal_tip_temperature: " not in said
 
 
 def test_an_altered_key_number_fails_even_if_its_digest_is_forged(examined):
@@ -224,7 +224,7 @@ def test_a_truncated_dataset_does_not_hide_the_other_checks(examined):
         problems, found = examined()
     said = "\n".join(problems)
     assert f"unreadable: {DATASET}: " in said
-    assert "not there: materials_ANB: fold_temperature(fold=0): " in said
+    assert "not there: materials_ANB: spinodal_tip_temperature: " in said
     assert any(row.quantity == "front_fit: exponent" and row.agrees for row in found.rows)
 
 

@@ -8,7 +8,6 @@ from _helpers import job
 with job(snakemake):
     from pathlib import Path
 
-    from gelpump.integrity import table
     from gelpump.integrity.examination import examine
     from gelpump.text import write_text
 
@@ -17,7 +16,7 @@ with job(snakemake):
         found = examine(params.blocks, Path(params.quantities), Path(params.values))
     except FileNotFoundError as refusal:
         raise SystemExit(str(refusal)) from None
-    text = table.markdown(*found)
+    text = found.markdown()
     write_text(text, "results/tables/verify.md")
 
 print(text, flush=True)

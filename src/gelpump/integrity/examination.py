@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping
+from operator import attrgetter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,6 +11,7 @@ import yaml
 from gelpump.integrity import conventions, reference
 from gelpump.integrity.build import Build
 from gelpump.integrity.problem import Problem
+from gelpump.tables import table
 
 
 class Examination(NamedTuple):
@@ -23,6 +25,32 @@ class Examination(NamedTuple):
     def passed(self) -> bool:
         """Whether nothing is wrong."""
         return not any(self.checks.values())
+
+    def markdown(self) -> str:
+        """A line a check with its verdict, all problems, every number beside its reference."""
+        total = sum(map(len, self.checks.values()))
+        lines = ["# Verification of this build", ""]
+        lines += [f"**{f'{total} problems' if total else 'Everything agrees.'}**", ""]
+        verdicts = {
+            "check": lambda each: each[0],
+            "verdict": lambda each: f"**{len(each[1])} found**" if each[1] else "passed",
+        }
+        lines += [table(verdicts, self.checks.items()), *(f"Note: {note}\n" for note in self.notes)]
+        if total:
+            lines += ["## Problems", ""]
+            lines += [f"- {problem}" for found in self.checks.values() for problem in found]
+            lines += [""]
+        if self.rows:
+            columns = {
+                "variable": attrgetter("quantity"),
+                "reference": lambda row: f"{row.reference:.9g}",
+                "here": lambda row: f"{row.here:.9g}",
+                "difference": lambda row: f"{row.difference:.1e}",
+                "tolerance": lambda row: f"{row.tolerance:.1e}",
+                "verdict": lambda row: "agrees" if row.agrees else "**differs**",
+            }
+            lines += ["## Numbers", "", table(columns, self.rows)]
+        return "\n".join(lines)
 
 
 def examine(blocks: Mapping[str, str | None], quantities: Path, values: Path) -> Examination:

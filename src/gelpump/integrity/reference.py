@@ -5,7 +5,8 @@ coordinates), averaged over the other dimensions.  Its tolerance is SAFETY times
 uncertainty, which comes from
 
 - a dataset that holds ``NAME_uncertainty`` for the variable NAME,
-- another variable ``{dataset, variable}`` with such an uncertainty, which bounds the relative one,
+- another variable ``{dataset, variable}`` with such an uncertainty, which bounds the relative one
+  (in both, ``{dataset}`` in a name stands for the quantity's own),
 - or a number: the relative uncertainty of what is computed without meshes or steps.
 
 Two builds that are both within their uncertainty differ by at most twice that.
@@ -60,7 +61,13 @@ def quantities(listed: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, str, 
                 where = dict(zip(at, values, strict=True))
                 text = ", ".join(f"{dim}={value:g}" for dim, value in where.items())
                 label = f"{dataset}: {name}" + (f"({text})" if text else "")
-                yield label, dataset, name, where, entry["uncertainty"]
+                match entry["uncertainty"]:
+                    case str(of):
+                        yield label, dataset, name, where, of.format(dataset=dataset)
+                    case {"dataset": of, "variable": other}:
+                        yield label, dataset, name, where, (of.format(dataset=dataset), other)
+                    case relative:
+                        yield label, dataset, name, where, relative
 
 
 def evaluated(listed: Sequence[Mapping[str, Any]], data: Datasets) -> tuple[Values, list[Problem]]:
@@ -176,7 +183,7 @@ def _uncertainty(data: Datasets, name: str, where: Mapping[str, float], kind, va
     match kind:
         case str():
             return float(_selected(data[kind][f"{name}_uncertainty"], where).max())
-        case {"dataset": dataset, "variable": other}:
+        case (dataset, other):
             values = data[dataset][other]
             values = values.isel(level=0) if "level" in values.dims else values
             relative = data[dataset][f"{other}_uncertainty"] / abs(values)

@@ -7,7 +7,8 @@ comparisons, signs and truth values. Every place of the physics, of the statemen
 verdicts and of the designs where one is possible is as likely as any other; the seed says which are
 drawn, and then which change is made there. The tests that run the changed statement, found once by
 coverage, are run until one fails; then the others of their files, up to ``BUDGET`` seconds. Tests
-too slow for that are left out, which can only lower the score. What is in ``equivalent.yaml``, each with its reason, changes no number and is not drawn.
+too slow for that are left out, which can only lower the score. What is in ``equivalent.yaml``, each
+with its reason, changes no number and is not drawn.
 
 A run goes on where the last one with the same seed and sources stopped. ``--again`` tries once more
 what survived, after tests have changed. With ``--record FILE`` the score and the survivors take

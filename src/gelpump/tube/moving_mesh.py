@@ -220,10 +220,10 @@ class Family:
             )
             reaction = V * (alpha * self.closure.content_slope(stretch) + rate * S_slope)
             correction = self.sweep.correction(
-                _on_faces((from_right - from_left) / 2),
+                on_faces((from_right - from_left) / 2),
                 reaction.ravel(),
                 residual.ravel(),
-                _on_faces(from_right + from_left),
+                on_faces(from_right + from_left),
             ).reshape(stretch.shape)
             stretch = stretch + correction
             if not (stretch > 0.1 * stretch.max()).all():
@@ -304,6 +304,6 @@ class Family:
         return length + Z[:, 0] * (excess[:, 0] > 0)  # from the closed end to the first middle
 
 
-def _on_faces(inner):
+def on_faces(inner):
     """A family's face values on FiPy's mesh, where a tube's last face is the next one's first."""
     return np.append(np.pad(inner, ((0, 0), (1, 0))).ravel(), 0.0)

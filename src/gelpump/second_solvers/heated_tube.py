@@ -145,7 +145,9 @@ def solve(
         eq[2] = t * warmed
         eq[2][0], eq[2][-1], eq[2][n] = theta[0] - 1, theta[-1] + 1, theta[n]
         eq[3][0] = Q[0]
-        gain = -2 / 3 * Phi ** (-5 / 3) * rise / t + outwards * np.r_[F[:n], F[n:]] * Phi ** (-5 / 3)
+        gain = -2 / 3 * Phi ** (-5 / 3) * rise / t + outwards * np.r_[F[:n], F[n:]] * Phi ** (
+            -5 / 3
+        )
         eq[3][1:] = w * (np.diff(Q) + integrated(gain) * insulated)
         eq[4][:n], eq[4][n + 1 :] = c[:n] - c[1 : n + 1], c[n + 1 :] - c[n:-1]
         eq[4][n] = t * warmed[n]

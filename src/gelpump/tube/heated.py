@@ -33,11 +33,18 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from gelpump.bdf import MAX_TRIALS, NotConverged, Step, derivative_weights, integrate
+from gelpump.bdf import (
+    MAX_TRIALS,
+    NotConverged,
+    Step,
+    derivative_weights,
+    integrate,
+    interpolation_weights,
+)
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
 from gelpump.tube.closure import CLOSURES
-from gelpump.tube.heat import FRONT_CONSTANT, StepHeating
+from gelpump.tube.heat import StepHeating
 from gelpump.tube.moving_mesh import GRADING_BEHIND, Family, on_faces
 from gelpump.tube.slender import NEWTON_SHARE, PARAMETERS
 from gelpump.tube.stefan import Surrounding, stefan_numbers
@@ -79,7 +86,9 @@ class HeatedFamily(Family):
         )
         ell = np.reshape(tubes.ell, (-1, 1))
         self.Le, self.latent, self.N = np.broadcast_to(Le, ell.shape), latent, N
-        self.insulated = np.reshape(np.broadcast_to(surrounding.insulated, tubes.ell.shape), (-1, 1))
+        self.insulated = np.reshape(
+            np.broadcast_to(surrounding.insulated, tubes.ell.shape), (-1, 1)
+        )
         self.section = np.reshape(np.broadcast_to(surrounding.section, tubes.ell.shape), (-1, 1))
         self.wall = 1 - ell**2
         outwards = (1 - lumen_share(ell)) * self.wall
@@ -265,7 +274,7 @@ class HeatBooks:
         velocity, rates = (
             np.tensordot(weights, np.array([state[i] for state in states]), 1) for i in (2, 5)
         )
-        stretch, _, X, theta, heat, held = states[0]
+        stretch, _, X, theta, heat, _ = states[0]
         water, M, shed = family.flows(t, X, velocity, stretch, rates)
         first = family.conduction(t, X, stretch)[:, 0]
         L = family.latent if family.latent is not None else -family.N - theta
@@ -280,8 +289,6 @@ class HeatBooks:
 
     def at(self, t: float, step: Step) -> dict[str, NDArray]:
         """All entries at a time within the step entered last; heat from theta = -1."""
-        from gelpump.bdf import interpolation_weights
-
         weights = interpolation_weights(step.times, t)
         entry = self.family.w[:, 0] * np.tensordot(weights, np.array(self._entries), 1)
         heat = self.family.w[:, 0] * self.family.unpack(step.at(t))[4].sum(axis=1)

@@ -7,7 +7,7 @@ import pytest
 
 from gelpump.bead import nonlinear
 from gelpump.materials import EnergyBasedGel
-from gelpump.separation import diffuse, observed, stability
+from gelpump.separation import diffuse, diffuse_lens, observed, shells, stability, watch
 from gelpump.separation.energy import ENERGIES
 
 HHT = EnergyBasedGel("HHT", A0=-62.22, A1=-58.28, B0=0.20470, B1=0.19044, Omega=720.0)
@@ -81,10 +81,23 @@ def test_below_separation_it_tends_to_the_bead_of_one_phase():
     for width in (0.08, 0.04):
         kappa = (width / diffuse.width_per_root_kappa(energy)) ** 2
         flow = diffuse.Bead(ENERGIES["nonlinear"](HHT, 307.5), kappa, 400)
-        _, states = diffuse._integrate(flow, SWOLLEN ** (-1 / 3) * flow.R[1:], times, 1e-7)
-        away.append(np.abs(states[1:, -1] / whole[1:] - 1).max())
+        start = SWOLLEN ** (-1 / 3) * flow.R[1:]
+        states = [
+            step.at(t)[-1]
+            for step, t in zip(reached(flow, start, times[1:]), times[1:], strict=True)
+        ]
+        away.append(np.abs(states / whole[1:] - 1).max())
     assert away[1] < 2e-3
-    assert away[1] < 0.7 * away[0]
+    assert np.log2(away[0] / away[1]) > 0.7  # the order in the width, that of its layer
+
+
+def reached(flow, start, times):
+    """The steps within which the times lie."""
+    due = list(times)
+    for step in diffuse.steps(flow, start, times[-1], 1e-7):
+        if due and due[0] <= step.time:
+            due.pop(0)
+            yield step
 
 
 @pytest.mark.parametrize(("width", "cells"), [(0.001, 640), (0.3, 640), (0.02, 100)])
@@ -93,8 +106,84 @@ def test_unresolved_and_too_wide_interfaces_are_refused(width, cells):
         diffuse.solve(ENERGIES["nonlinear"](HHT, 308.0), SWOLLEN, TIMES, cells, width=width)
 
 
-def test_layers_are_said():
-    """A uniform bead with D < 0 decomposes in layers: a run in words, not a smooth radius."""
+def test_layers_are_said_and_told_of():
+    """A uniform bead with D < 0 decomposes, at about the wavelength that grows fastest."""
+    energy, times = ENERGIES["nonlinear"](HHT, 308.0), np.linspace(0.0, 0.01, 21)
+    with pytest.raises(watch.UnderResolved, match="fronts, not one"):
+        diffuse.solve(energy, 0.3, times, 340, width=0.05)
+    run = diffuse.solve(energy, 0.3, times, 340, width=0.05, layers=True)
+    assert run.attrs["fronts"] > 3
+    fastest = stability.fastest_wavelength(HHT, 308.0, 0.3, run.attrs["kappa"])
+    assert run.attrs["wavelength"] == pytest.approx(fastest, rel=0.5)
+
+
+def test_a_run_on_too_few_shells_ends_in_words():
+    """Its mesh would be refused before; here it is what is seen at the steps that ends it."""
     energy = ENERGIES["nonlinear"](HHT, 308.0)
-    with pytest.raises(diffuse.UnderResolved, match="fronts"):
-        diffuse.solve(energy, 0.3, np.linspace(0.0, 0.01, 21), 640, width=0.03)
+    bead = diffuse.Bead(energy, diffuse.kappa_of(energy, 0.02), 100)
+    steps = diffuse.steps(bead, SWOLLEN ** (-1 / 3) * bead.R[1:], 0.3, 1e-7)
+    with pytest.raises(watch.UnderResolved, match="cells across a width"):
+        watch.course(energy, bead, steps, np.array([0.0, 0.3]), layers=False)
+
+
+R = shells.clustered_outside(40)
+UNIFORM = SWOLLEN ** (-1 / 3) * R
+
+
+@pytest.mark.parametrize(
+    ("state", "energy", "said"),
+    [
+        ((R, np.where(R[7] == R, UNIFORM[9], UNIFORM)), -1.0, "tangled"),
+        ((1.01 * R, UNIFORM), -1.0, "of the polymer"),
+        ((R, UNIFORM), 1e-9, "the energy rises by 1e-09"),
+        ((R, np.where(R < 0.8, UNIFORM, UNIFORM - 0.9 * (R - 0.8))), -1.0, None),
+    ],
+)
+def test_what_is_seen_at_a_step(state, energy, said):
+    seen = watch.Watch((0.06, 0.6), False)
+    seen.see(0.0, R, UNIFORM, 0.0)
+    if said is None:
+        seen.see(0.1, *state, energy)
+    else:
+        with pytest.raises(watch.UnderResolved, match=said):
+            seen.see(0.1, *state, energy)
+
+
+class TestLensOnFiPy:
+    """The LENS bead by another discretisation and another integrator."""
+
+    def bead(self, cells=30, width=0.05):
+        energy = ENERGIES["lens"](HHT, 308.0)
+        return diffuse_lens.Bead(energy, diffuse.kappa_of(energy, width), cells, 1e-3)
+
+    def test_one_sweep_is_newtons_step(self):
+        flow = self.bead()
+        start = flow.start(SWOLLEN)
+        y = start * (1 + 0.1 * np.append(np.cos(5 * flow.x[1:]), 0.0))
+        alpha, history = 30.0, -30.0 * start
+
+        def residual(z):
+            return flow.residual(z, alpha * z + history)
+
+        columns = [(residual(y + d) - residual(y - d)) / 2e-6 for d in 1e-6 * np.eye(y.size)]
+        expected = -np.linalg.solve(np.transpose(columns), residual(y))
+        np.testing.assert_allclose(
+            flow.newton(y, alpha, history), expected, atol=1e-5 * abs(expected).max()
+        )
+
+    def test_two_solvers_agree(self):
+        """Until the front is well inside; at width 0.02 it is the target separation's."""
+        times = np.linspace(0.0, 0.29, 59)
+        run = diffuse_lens.solve(HHT, 308.0, SWOLLEN, times, 200, width=0.05, tolerance=1e-3)
+        other = diffuse.solve(ENERGIES["lens"](HHT, 308.0), SWOLLEN, times, 640, width=0.05)
+        np.testing.assert_allclose(run.radius, other.radius, rtol=2e-3)
+        np.testing.assert_allclose(run.front_dry_radius[-1], other.front_dry_radius[-1], atol=2e-3)
+        assert run.front_dry_radius[-1] < 0.8
+        assert run.energy.diff("t").max() < 0
+        assert abs(run.polymer_volume_error).max() < 1e-10
+
+    def test_refusals(self):
+        with pytest.raises(ValueError, match="of 100 cells"):
+            diffuse_lens.solve(HHT, 308.0, SWOLLEN, TIMES, 100, width=0.02, tolerance=1e-3)
+        with pytest.raises(ValueError, match="as large as the bead"):
+            diffuse_lens.solve(HHT, 308.0, SWOLLEN, TIMES, 100, width=0.3, tolerance=1e-3)

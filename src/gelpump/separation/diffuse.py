@@ -16,35 +16,30 @@ gradient between the middles of two shells.  The rate is its exact derivative wi
 radii of the faces, so that the energy of the shells can only fall; a face sees two shells on either
 side, and CVODE gets the five diagonals.
 
-Too few shells across an interface would give layers that are not there, with an energy that falls
-and a smooth radius.  A run is refused, or stopped in words, unless PER_WIDTH shells lie across the
-width on the swollen side, shells keep their order, energy falls and there is one front at most.
+A run is refused, or stopped in words (``gelpump.separation.watch``), unless PER_WIDTH shells lie
+across the width on the swollen side and each step of CVODE's is sound.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gelpump import progress
-from gelpump.separation import observed
+from gelpump.separation import watch
 from gelpump.separation.coexistence import equal_area
+from gelpump.separation.watch import PER_WIDTH, WIDTH_AT
 
 if TYPE_CHECKING:
     import xarray as xr
+    from sksundae.cvode import CVODE
 
-WIDTH_AT = 2.0  # the hoop stretch
-PER_WIDTH = 3.0  # shells across a width
 WIDEST = 0.1  # of the dry radius: beyond it interface and bead are one
 DIFFERENCE = 1e-5  # of a Jacobian, over the thickness of a shell
 ABSOLUTE = 0.01  # absolute tolerance over the relative one
-RISE = 1e-9  # of the energy between two outputs, relative, that is the integrator's
 MAX_STEPS = 50_000
-
-
-class UnderResolved(RuntimeError):
-    """The shells do not resolve what happens: its words say what was met, and when."""
+TOLERANCE = 1e-7  # at 1e-6 Newton's iteration may leave a rise of the energy
 
 
 def width_per_root_kappa(energy, l_t: float = WIDTH_AT) -> float:
@@ -71,6 +66,10 @@ class Bead:
         volume = np.diff(faces**3)
         phi = np.clip(self.dry / np.where(volume > 0, volume, self.dry), 1e-9, 1 - 1e-9)
         return faces, phi, (faces[1:] + faces[:-1]) / self.twice
+
+    def faces(self, r: NDArray) -> tuple[NDArray, NDArray]:
+        """R and r of all faces."""
+        return self.R, np.append(0.0, r)
 
     def energy_of(self, r: NDArray) -> float:
         """E / 4 pi."""
@@ -118,64 +117,22 @@ class Bead:
                 J[column + offset, column] = change[column + offset] / (2 * step[column])
 
 
-def solve(
-    energy,
-    phi_initial: float,
-    times: Sequence[float],
-    cells: int,
-    *,
-    width: float,
-    tolerance: float = 1e-6,
-) -> "xr.Dataset":
-    """The bead of ``energy`` from uniform ``phi_initial``, interfaces as wide as ``width``.
+@dataclass(frozen=True)
+class Step:
+    """An accepted step of CVODE's, which interpolates within its last one."""
 
-    times: increasing from 0, in t_BMJ.  width: of a flat interface at WIDTH_AT, in R_dry.  The
-    dataset is ``gelpump.separation.observed``; its energy is that of the shells, and a front is
-    where phi passes the mean of the two phases at WIDTH_AT.
+    time: float
+    solution: NDArray
+    solver: "CVODE"
 
-    Raises ValueError for a width that the shells do not resolve, or as large as the bead,
-    UnderResolved when a run shows that it is, RuntimeError when CVODE fails.
-    """
-    times = np.asarray(times, dtype=float)
-    sides = equal_area(energy, WIDTH_AT)
-    stretch = 1 / (sides[0] * WIDTH_AT**2)
-    least = PER_WIDTH * stretch / cells
-    if not least <= width <= WIDEST:
-        raise ValueError(
-            f"width = {width}: must be at least {least:.3g}, {PER_WIDTH:g} shells of {cells} on "
-            f"the swollen side, and at most {WIDEST}, beyond which it is as large as the bead"
-        )
-    bead = Bead(energy, (width / width_per_root_kappa(energy)) ** 2, cells)
-    t, states = _integrate(bead, float(phi_initial) ** (-1 / 3) * bead.R[1:], times, tolerance)
-    middle = 0.5 * sum(sides)
-    r = np.pad(states, ((0, 0), (1, 0)))
-    E = np.array([bead.energy_of(each) for each in states])
-    fronts = [_fronts(bead, each, middle) for each in states]
-    for i, found in enumerate(fronts):
-        if len(found) > 1:
-            raise UnderResolved(
-                f"at t = {t[i]:.6g} there are {len(found)} fronts, not one: the bead decomposes "
-                "into layers, or its shells are too few"
-            )
-        if i and E[i] > E[i - 1] + RISE * abs(E[i - 1]):
-            raise UnderResolved(f"at t = {t[i]:.6g} the energy rises by {E[i] - E[i - 1]:.3g}")
-        if np.diff(r[i]).min() <= 0.0:
-            raise UnderResolved(f"at t = {t[i]:.6g} shells are tangled: tolerance {tolerance}")
-    front = np.array([found[0] if found else (np.nan, np.nan) for found in fronts])
-    events = {}
-    if (met := np.flatnonzero(np.isfinite(front[:, 0]))).size:
-        events = {"birth_t": float(t[met[0]])}
-        if met[-1] + 1 < t.size:
-            events["completion_t"] = float(t[met[-1] + 1])
-    dry = np.broadcast_to(bead.R, r.shape)
-    surface = np.array([bead.shells(each)[1][-1] for each in states])
-    attributes = {"phi_initial": phi_initial, "width": width, "kappa": bead.kappa}
-    run = observed.dataset(energy, t, dry, r, surface, front, attributes | events)
-    return run.assign(energy=run.energy.copy(data=E))
+    def at(self, t: float) -> NDArray:
+        """The radii at a time within the step."""
+        return np.array(self.solver.step(t).y)
 
 
-def _integrate(bead, start, times, tolerance):
-    """Times and states of CVODE's."""
+def steps(bead: Bead, start: NDArray, end: float, tolerance: float) -> Iterator[Step]:
+    """From the radii ``start`` on, one accepted step at a time, the last of them at ``end``;
+    RuntimeError when CVODE fails."""
     from sksundae.cvode import CVODE
 
     def rate(t, r, drdt):
@@ -192,26 +149,68 @@ def _integrate(bead, start, times, tolerance):
         linsolver="band",
         lband=2,
         uband=2,
-        max_num_steps=MAX_STEPS,
     )
     solver.init_step(0.0, start)
-    t, states = [0.0], [start]
-    for time in times[1:]:
-        step = solver.step(time)
+    yield Step(0.0, start, solver)
+    for _ in range(MAX_STEPS):
+        step = solver.step(end, method="onestep", tstop=end)
         if not step.success:
             raise RuntimeError(f"CVODE at t = {step.t}: {step.message}")
-        progress.at(float(step.t), float(times[-1]))
-        t.append(float(step.t))
-        states.append(np.array(step.y))
-    return np.array(t), np.array(states)
+        yield Step(float(step.t), np.array(step.y), solver)
+        if step.t >= end:
+            return
+    raise RuntimeError(f"CVODE at t = {step.t}: {MAX_STEPS} steps")
 
 
-def _fronts(bead, r, middle):
-    """(R, r) wherever phi passes ``middle``, linear between the middles of shells."""
-    faces, phi, _ = bead.shells(r)
-    i = np.flatnonzero((phi[1:] > middle) != (phi[:-1] > middle))
-    share = (middle - phi[i]) / (phi[i + 1] - phi[i])
-    at = [0.5 * (each[1:] + each[:-1]) for each in (bead.R, faces)]
-    return [
-        tuple(x[k] + part * (x[k + 1] - x[k]) for x in at) for k, part in zip(i, share, strict=True)
-    ]
+def kappa_of(energy, width: float) -> float:
+    """kappa of interfaces as wide as ``width``; ValueError beyond a tenth of the bead."""
+    if not 0.0 < width <= WIDEST:
+        raise ValueError(
+            f"width = {width}: must be at most {WIDEST}, beyond which it is as large as the bead"
+        )
+    return (width / width_per_root_kappa(energy)) ** 2
+
+
+def require_resolved(width: float, thickest: float, cells: int) -> None:
+    """ValueError unless PER_WIDTH cells of the ``thickest`` of an interface lie across it."""
+    if width < PER_WIDTH * thickest:
+        raise ValueError(
+            f"width = {width}: must be at least {PER_WIDTH * thickest:.3g}, {PER_WIDTH:g} of "
+            f"{cells} cells on the swollen side"
+        )
+
+
+def solve(
+    energy,
+    phi_initial: float,
+    times: Sequence[float],
+    cells: int,
+    *,
+    width: float,
+    tolerance: float = TOLERANCE,
+    layers: bool = False,
+) -> "xr.Dataset":
+    """The bead of ``energy`` from uniform ``phi_initial``, interfaces as wide as ``width``.
+
+    times: increasing from 0, in t_BMJ.  width: of a flat interface at WIDTH_AT, in R_dry.
+    layers: whether more than one front is let pass, and told of.  The dataset is
+    ``gelpump.separation.observed``; its energy is that of the shells, and a front is where phi
+    passes the mean of the two phases at WIDTH_AT.
+
+    Raises ValueError for a width that the shells do not resolve, or as large as the bead,
+    UnderResolved when a run shows that it is, RuntimeError when CVODE fails.
+    """
+    times = np.asarray(times, dtype=float)
+    bead = Bead(energy, kappa_of(energy, width), cells)
+    require_resolved(width, 1 / (equal_area(energy, WIDTH_AT)[0] * WIDTH_AT**2) / cells, cells)
+    start = float(phi_initial) ** (-1 / 3) * bead.R[1:]
+    return watch.course(
+        energy,
+        bead,
+        steps(bead, start, float(times[-1]), tolerance),
+        times,
+        layers=layers,
+        phi_initial=phi_initial,
+        width=width,
+        kappa=bead.kappa,
+    )

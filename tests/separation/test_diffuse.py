@@ -114,7 +114,7 @@ def test_layers_are_said_and_told_of():
     run = diffuse.solve(energy, 0.3, times, 340, width=0.05, layers=True)
     assert run.attrs["fronts"] > 3
     fastest = stability.fastest_wavelength(HHT, 308.0, 0.3, run.attrs["kappa"])
-    assert run.attrs["wavelength"] == pytest.approx(fastest, rel=0.5)
+    assert run.attrs["wavelength"] == pytest.approx(fastest, rel=0.2)
 
 
 def test_a_run_on_too_few_shells_ends_in_words():
@@ -176,8 +176,8 @@ class TestLensOnFiPy:
         times = np.linspace(0.0, 0.29, 59)
         run = diffuse_lens.solve(HHT, 308.0, SWOLLEN, times, 200, width=0.05, tolerance=1e-3)
         other = diffuse.solve(ENERGIES["lens"](HHT, 308.0), SWOLLEN, times, 640, width=0.05)
-        np.testing.assert_allclose(run.radius, other.radius, rtol=2e-3)
-        np.testing.assert_allclose(run.front_dry_radius[-1], other.front_dry_radius[-1], atol=2e-3)
+        np.testing.assert_allclose(run.radius, other.radius, rtol=3e-3)
+        np.testing.assert_allclose(run.front_dry_radius[-1], other.front_dry_radius[-1], atol=4e-3)
         assert run.front_dry_radius[-1] < 0.8
         assert run.energy.diff("t").max() < 0
         assert abs(run.polymer_volume_error).max() < 1e-10

@@ -66,7 +66,8 @@ class Watch:
             raise UnderResolved(f"at t = {t:.6g} the energy rises by {energy - self.energy:.3g}")
         self.energy = energy
         phi = np.diff(R**3) / np.diff(r**3)
-        cells = (self.sides[1] - self.sides[0]) / np.abs(np.diff(phi)).max(initial=1e-300)
+        steepest = float(np.abs(np.diff(phi)).max(initial=1e-300))
+        cells = (self.sides[1] - self.sides[0]) / steepest
         if cells < PER_WIDTH:
             raise UnderResolved(
                 f"at t = {t:.6g} there are {cells:.2g} cells across a width, of {PER_WIDTH:g}"

@@ -34,7 +34,8 @@ def loaded(tmp_path, given):
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_the_sweeps_of_the_repository_are_plans(file):
     sweep = plan.load(file)
-    assert sampling.sample(sweep).sizes["index"] == plan.designs(sweep)
+    few = sweep | {"samples": min(sweep["samples"], 1024)}
+    assert sampling.sample(few).sizes["index"] == plan.designs(few)
     assert (plan.chunks(sweep) - 1) * sweep["chunk"] < plan.designs(sweep)
     assert plan.chunks(sweep) * sweep["chunk"] >= plan.designs(sweep)
 

@@ -5,14 +5,14 @@ w = eps (1-ell)/4: designs are sorted by w, so that the tubes of a chunk agree a
 `design` is the number of a design in the order of its grid, its sequence or Sobol's scheme.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from itertools import product
 
 import numpy as np
 import xarray as xr
 
 from gelpump.netcdf import variable
-from gelpump.sweep.plan import PARAMETERS
+from gelpump.sweep.plan import PARAMETERS, designs
 
 MEANING = {
     "ell": "ratio of inner to outer radius, a_0/a_1",
@@ -25,34 +25,50 @@ MEANING = {
 
 
 def sample(sweep: Mapping) -> xr.Dataset:
-    """The parameters of all designs, sorted by w, dimension `index`."""
-    varied = sweep["parameters"]
-    if sweep["method"] == "grid":
-        values = np.array(list(product(*varied.values())), float)
-    else:
-        values = _scaled(_unit_cube(sweep), varied)
-    columns = dict(zip(varied, values.T, strict=True))
-    for key, (default, *_) in PARAMETERS.items():
-        if key not in columns:
-            columns[key] = np.full(len(values), float(sweep["fixed"].get(key, default)))
-    order = np.argsort(columns["eps"] * (1 - columns["ell"]), kind="stable")
-    data = {key: variable("index", columns[key][order], MEANING[key]) for key in PARAMETERS}
-    data["design"] = variable("index", order.astype(np.int64), "number of the design")
+    """The parameters of all designs, sorted by w, dimension `index`.
+
+    Column by column, so that beside the result there are never more than a few of them.
+    """
+    column = _columns(sweep)
+    order = np.argsort(column("eps") * (1 - column("ell")), kind="stable")
+    data = {key: variable("index", column(key)[order], MEANING[key]) for key in PARAMETERS}
+    data["design"] = variable("index", order.astype(np.int32), "number of the design")
     return xr.Dataset(data)
 
 
-def _unit_cube(sweep):
-    if sweep["method"] == "latin_hypercube":
-        from scipy.stats import qmc
+def _columns(sweep) -> Callable[[str], np.ndarray]:
+    """What gives all values of a parameter, in the order of the numbers of the designs."""
+    varied, count = sweep["parameters"], designs(sweep)
+    if sweep["method"] == "grid":
+        values = np.array(list(product(*varied.values())), float)
+    elif sweep["method"] == "sobol":
+        from SALib.sample import sobol
 
-        return qmc.LatinHypercube(len(sweep["parameters"]), rng=sweep["seed"]).random(
-            sweep["samples"]
+        values = sobol.sample(
+            problem(sweep), sweep["samples"], calc_second_order=False, seed=sweep["seed"]
         )
-    from SALib.sample import sobol
 
-    return sobol.sample(
-        problem(sweep), sweep["samples"], calc_second_order=False, seed=sweep["seed"]
-    )
+    def column(key):
+        if key not in varied:
+            return np.full(count, float(sweep["fixed"].get(key, PARAMETERS[key][0])))
+        place = list(varied).index(key)
+        if sweep["method"] == "grid":
+            return values[:, place]
+        if sweep["method"] == "sobol":
+            return _scaled(values[:, place], varied[key])
+        return _scaled(_latin(count, [sweep["seed"], place]), varied[key])
+
+    return column
+
+
+def _latin(count, seed):
+    """A column of a latin hypercube: one number in each of `count` slices of (0, 1), shuffled."""
+    rng = np.random.default_rng(seed)
+    column = rng.random(count)
+    column += np.arange(count)
+    column /= count
+    rng.shuffle(column)
+    return column
 
 
 def problem(sweep: Mapping) -> dict:
@@ -61,12 +77,8 @@ def problem(sweep: Mapping) -> dict:
     return {"num_vars": len(names), "names": names, "bounds": [[0.0, 1.0]] * len(names)}
 
 
-def _scaled(unit, varied):
-    columns = []
-    for u, block in zip(unit.T, varied.values(), strict=True):
-        low, high = block["between"]
-        if block.get("spaced") == "log":
-            columns.append(low * (high / low) ** u)
-        else:
-            columns.append(low + (high - low) * u)
-    return np.array(columns).T
+def _scaled(unit, block):
+    low, high = block["between"]
+    if block.get("spaced") == "log":
+        return low * (high / low) ** unit
+    return low + (high - low) * unit

@@ -209,7 +209,7 @@ MUTANTS = (
     Mutant(
         "published times not among the output",
         "src/gelpump/bead/production.py",
-        'case["published_times"],',
+        '*case["published_times"], ',
         "",
         "tests/bead/test_production.py",
     ),

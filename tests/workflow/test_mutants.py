@@ -20,8 +20,11 @@ mutants, random_sample = script("run"), script("random_sample")
 
 
 @pytest.mark.parametrize("mutant", mutants.MUTANTS, ids=lambda mutant: mutant.bug)
-def test_its_text_is_there_once(mutant):
-    found = (PROJECT / mutant.file).read_text(encoding="utf-8").count(mutant.text)
+def test_its_text_is_there_once_and_the_bug_is_code(mutant):
+    source = (PROJECT / mutant.file).read_text(encoding="utf-8")
+    found = source.count(mutant.text)
+    if mutant.file.endswith(".py"):
+        ast.parse(source.replace(mutant.text, mutant.wrong))
     assert found == 1, f"{mutant.text!r} is {found} times in {mutant.file}: give the bug a new one"
 
 

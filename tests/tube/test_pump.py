@@ -7,7 +7,8 @@ import xarray as xr
 from gelpump.materials import PiecewiseLinearGel
 from gelpump.tube import pump
 from gelpump.tube.heat import StepHeating
-from gelpump.tube.tubes import Tubes
+from gelpump.tube.slender import solve
+from gelpump.tube.tubes import Tubes, one_by_one
 
 HEAT = StepHeating(10.0)
 TAU = np.geomspace(1e-3, 0.1, 7)
@@ -94,9 +95,28 @@ def test_rates_are_the_derivatives_of_volumes(balance):
 
 def test_response_does_not_depend_on_stiffness():
     gel = PiecewiseLinearGel(Phi_inf=2.0, Pi_ratio=1.0, M=1.0)
-    settings = {"ell": 0.5, "tau": [0.1], "varied": {"M": [0.1, 10.0], "Phi_inf": [1.5, 4.0]}}
-    found = pump.response(gel, {"eps": 0.1, "Le": 10.0}, settings, NUMERICS).isel(tau=0)
+    settings = {"ell": 0.5, "varied": {"M": [0.1, 10.0], "Phi_inf": [1.5, 4.0]}}
+    others, varied = one_by_one(gel, {"eps": 0.1}, settings)
+    pulses = pump.closures(Tubes(ELL), HEAT, [0.01, 0.1], NUMERICS, others)
+    found = pump.response(pulses["others"], varied, [0.1]).isel(tau=0)
     assert isinstance(found, xr.Dataset)
     assert found.varied.values.tolist() == ["M", "M", "Phi_inf", "Phi_inf"]
     np.testing.assert_allclose(found.pumped_station, found.pumped_station_geometry, rtol=8e-3)
     assert found.pumped_station[3] > 2 * found.pumped_station[2]
+
+
+def test_a_family_is_what_its_tubes_are_alone(pulses):
+    """Closures that conserve water are solved as one family, each tube with its own surface."""
+    for name in ("conservative", "balanced"):
+        cells = tuple(NUMERICS["cells"])
+        alone = solve(Tubes(ELL), HEAT, TAU, closure=name, **(NUMERICS | {"cells": cells}))
+        assert pulses[name].attrs["closure"] == name
+        np.testing.assert_allclose(pulses[name].Phi1, alone.Phi1, atol=2e-4)
+    between = np.abs(pulses["balanced"].Phi1 - pulses["conservative"].Phi1).max()
+    assert between > 0.1
+
+
+@pytest.mark.parametrize("closure", [["printed"], ["conservative", "none"]])
+def test_only_closures_that_conserve_water_share_a_family(closure):
+    with pytest.raises(ValueError, match="one of conservative, balanced"):
+        solve(Tubes([0.5] * len(closure)), HEAT, [0.01], closure=closure)

@@ -4,20 +4,20 @@ from _helpers import job
 
 with job(snakemake) as provenance:
     from gelpump import netcdf
+    from gelpump.coordinates import merged
     from gelpump.materials import from_config
     from gelpump.tube import production, pump
     from gelpump.tube.heat import StepHeating
-    from gelpump.tube.tubes import Tubes
+    from gelpump.tube.tubes import Tubes, one_by_one
 
     params, output = snakemake.params, snakemake.output
     gel = from_config(params.tube["gel"], params.gel)
     heat = StepHeating(params.tube["Le"])
     tubes = Tubes(params.pulse["ell"], params.tube["eps"], gel.M, gel.Pi_ratio, gel.Phi_inf)
-    tau = production.family_tau(params.pulse)
-    pulses, coarse = (
-        pump.closures(tubes, heat, tau, numerics)
-        for numerics in (params.numerics, pump.coarser(params.numerics))
-    )
+    others, varied = one_by_one(gel, params.tube, params.response)
+    tau = merged(params.response["tau"], production.family_tau(params.pulse))
+    pulses = pump.closures(tubes, heat, tau, params.numerics, others)
+    coarse = pump.closures(tubes, heat, tau, pump.coarser(params.numerics))
     given = {
         "tube": params.tube,
         "gel": params.gel,
@@ -33,7 +33,7 @@ with job(snakemake) as provenance:
         ),
         (pump.joined(pulses), output.pulse, "tubes that collapse behind a pulse, water conserved"),
         (
-            pump.response(gel, params.tube, params.response, params.numerics),
+            pump.response(pulses["others"], varied, params.response["tau"]),
             output.response,
             "what tubes pump, by their shape and their gel",
         ),

@@ -45,6 +45,7 @@ Phi_1 is the mean over the section, to the accuracy of (R^2, ln R, 1): kappa is 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -157,11 +158,34 @@ class Balanced(Conservative):
         return x**3, -3 * x**2 * 4 * M / stretch**2 / (3 * s * x**2 + 4 * M)
 
 
+class EachItsOwn(Conservative):
+    """Water is conserved, and each tube of a family has its surface: one mesh, one iteration."""
+
+    def __init__(self, names: Sequence[str]):
+        self.name = list(names)
+        self.forceless = np.array([name == Balanced.name for name in names])[:, np.newaxis]
+
+    def wall_length(self, tubes: Tubes) -> NDArray:
+        """w of each tube, in units of L."""
+        held, free = (CLOSURES[name].wall_length(tubes) for name in WATER)
+        return np.where(self.forceless[:, 0], free, held)
+
+    def surface(
+        self, stretch: NDArray, s: NDArray, Phi_0: NDArray, M: NDArray
+    ) -> tuple[NDArray, NDArray]:
+        """Phi_s, and its derivative in lambda."""
+        held, free = (CLOSURES[name].surface(stretch, s, Phi_0, M) for name in WATER)
+        return tuple(np.where(self.forceless, *pair) for pair in zip(free, held, strict=True))
+
+
 CLOSURES = {each.name: each for each in (Printed(), Conservative(), Balanced())}
+WATER = tuple(name for name, each in CLOSURES.items() if each.conserves_water)
 
 
-def named(name: str) -> Printed:
-    """The closure of that name; ValueError if there is none."""
-    if name not in CLOSURES:
-        raise ValueError(f"closure = {name!r} is not allowed: one of {', '.join(CLOSURES)}")
-    return CLOSURES[name]
+def named(name: str | Sequence[str]) -> Printed:
+    """The closure of that name, or of one of WATER for each tube; ValueError if there is none."""
+    known, several = (CLOSURES, False) if isinstance(name, str) else (WATER, True)
+    for each in name if several else [name]:
+        if each not in known:
+            raise ValueError(f"closure = {each!r} is not allowed: one of {', '.join(known)}")
+    return EachItsOwn(name) if several else CLOSURES[name]

@@ -34,21 +34,22 @@ and the velocity of the lumen's water far ahead, of area pi ell^2, is
 away from the heated end, whatever the closure and the gel.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import fields
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from gelpump.netcdf import variable
 from gelpump.tube import scaling
-from gelpump.tube.closure import CLOSURES
+from gelpump.tube.closure import CLOSURES, WATER
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.ledger import SIDES
 from gelpump.tube.slender import solve
-from gelpump.tube.tubes import Tubes, one_by_one
+from gelpump.tube.tubes import Tubes
 from gelpump.tube.wall_flow import lumen_share
 
-NAMES = tuple(CLOSURES)
 SAFETY = 1.25  # of the grid-convergence index
 LINES = {
     "collapse_station": "volume that the lumen has lost up to a fixed station far ahead",
@@ -141,7 +142,8 @@ def balance(
 
     coarse: the same with half the cells and four times the tolerance, for the uncertainty of V.
     """
-    one = next(iter(pulses.values()))
+    pulses, coarse = ({name: each[name] for name in CLOSURES} for each in (pulses, coarse))
+    one = pulses["printed"]
     ell, Phi_inf = one.ell.values, one.Phi_inf.values
     data = {}
     for rate, suffix, what, unit in (
@@ -226,10 +228,29 @@ def _order(tau, error):
     return -(np.log(np.abs(error[..., late])) * x).sum(axis=-1) / (x**2).sum()
 
 
-def closures(tubes: Tubes, heat: StepHeating, tau, numerics: Mapping) -> dict[str, xr.Dataset]:
-    """The tubes by each closure, with books."""
-    given = _numerics(numerics)
-    return {name: solve(tubes, heat, tau, closure=name, books=True, **given) for name in NAMES}
+def closures(
+    tubes: Tubes, heat: StepHeating, tau, numerics: Mapping, others: Tubes | None = None
+) -> dict[str, xr.Dataset]:
+    """The tubes by each closure, with books, and "others" by the conservative one.
+
+    All that conserve water are one family, which is solved at once.
+    """
+    given = {**numerics, "cells": tuple(numerics["cells"]), "books": True}
+    blocks = dict.fromkeys(WATER, tubes) | ({} if others is None else {"others": others})
+    names = [name if name in WATER else "conservative" for name in blocks]
+    counts = [block.ell.size for block in blocks.values()]
+    whole = Tubes(
+        *(
+            np.concatenate([np.ravel(getattr(block, key.name)) for block in blocks.values()])
+            for key in fields(Tubes)
+        )
+    )
+    run = solve(whole, heat, tau, closure=np.repeat(names, counts).tolist(), **given)
+    parts = zip(blocks, names, np.cumsum(counts), counts, strict=True)
+    return {"printed": solve(tubes, heat, tau, closure="printed", **given)} | {
+        block: run.isel(ell=slice(end - count, end)).assign_attrs(closure=name)
+        for block, name, end, count in parts
+    }
 
 
 def coarser(numerics: Mapping) -> dict:
@@ -238,37 +259,33 @@ def coarser(numerics: Mapping) -> dict:
     return {**numerics, "cells": cells, "tolerance": 4 * numerics["tolerance"]}
 
 
-def response(gel, tube: Mapping, settings: Mapping, numerics: Mapping) -> xr.Dataset:
+def response(pulse: xr.Dataset, varied: Sequence[str], tau: ArrayLike) -> xr.Dataset:
     """What the conservative closure pumps per advance of the front, dims (tube, tau).
 
-    The tubes are those of `gelpump.tube.tubes.one_by_one`.
+    pulse: tubes of `gelpump.tube.tubes.one_by_one` with what is varied of each, solved with books
+    at times among which are `tau`.
     """
-    tubes, varied = one_by_one(gel, tube, settings)
-    heat, tau = StepHeating(tube["Le"]), np.array(settings["tau"])
-    pulse = solve(tubes, heat, tau, closure="conservative", **_numerics(numerics))
-    found, expected = volumes(pulse), per_advance(tubes.ell, tubes.Phi_inf)
-    advance, unit = np.pi * heat.front(tau), "in units of a_1^2"
+    pulse = pulse.sel(tau=tau)
+    ell, Phi_inf = pulse.ell.values, pulse.Phi_inf.values
+    found, expected = volumes(pulse), per_advance(ell, Phi_inf)
+    advance, unit = np.pi * pulse.Z_C.values, "in units of a_1^2"
     data = {}
     for name, text in LINES.items():
         per = variable(("tube", "tau"), found[name] / advance, f"{text}, per pi Z_C", unit)
         geometry = variable("tube", expected[name], f"by geometry: {text}, per pi Z_C", unit)
         data |= {name: per, f"{name}_geometry": geometry}
     for key in ("ell", "M", "Pi_ratio", "Phi_inf"):
-        data[key] = variable("tube", getattr(tubes, key), f"{key} of the tube")
+        data[key] = variable("tube", pulse[key].values, f"{key} of the tube")
     coords = {
         "varied": ("tube", varied, {"long_name": "number that is varied"}),
-        "tau": scaling.tau(tau),
+        "tau": scaling.tau(pulse.tau.values),
     }
     return xr.Dataset(data, coords)
 
 
-def _numerics(settings: Mapping) -> dict:
-    return {**settings, "cells": tuple(settings["cells"])}
-
-
 def joined(pulses: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    """Pulses by closure as one dataset, dims (closure, ell, tau, cell)."""
-    conserving = {k: v for k, v in pulses.items() if CLOSURES[k].conserves_water}
+    """Pulses that conserve water as one dataset, dims (closure, ell, tau, cell)."""
+    conserving = {name: pulses[name] for name in WATER}
     attrs = {
         key: next(iter(conserving.values())).attrs[key] for key in ("cells_behind", "cells_ahead")
     }

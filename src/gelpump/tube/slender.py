@@ -46,6 +46,7 @@ How it is solved is told in `gelpump.tube.moving_mesh`.
 """
 
 import warnings
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -74,7 +75,7 @@ def solve(
     reach: float = 12.0,
     newton_share: float = NEWTON_SHARE,
     trials: int = MAX_TRIALS,
-    closure: str = "printed",
+    closure: str | Sequence[str] = "printed",
     books: bool = False,
 ) -> xr.Dataset:
     """Phi_1 of all `tubes` at the times `tau`, on cells behind and ahead of the front.
@@ -90,8 +91,8 @@ def solve(
     `newton_share` of the tolerance may be left by Newton's iteration: where Phi_inf is large, what
     a tenth leaves can stall the choice of the next step. After `trials` steps RuntimeError is
     raised. The Lewis number of `heat` may be a column, (tubes, 1). `closure` is one of
-    `gelpump.tube.closure`. `books` are those of `gelpump.tube.ledger`; where water is conserved
-    they are kept in any case.
+    `gelpump.tube.closure`, or one for each tube of those that conserve water. `books` are those of
+    `gelpump.tube.ledger`; where water is conserved they are kept in any case.
     """
     tau = np.atleast_1d(np.asarray(tau, float))
     if not (tau[0] > 0 and (np.diff(tau) > 0).all() and np.isfinite(tau).all()):

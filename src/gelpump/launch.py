@@ -28,6 +28,7 @@ def settle() -> None:
     for name in list(os.environ):
         if name == "PYTHONOPTIMIZE" or name.startswith("FIPY_"):
             del os.environ[name]
+    os.environ["FIPY_SOLVERS"] = "scipy"
 
 
 def complete(workflow: Any, config: dict[str, Any], arguments: Sequence[str] | None = None) -> None:

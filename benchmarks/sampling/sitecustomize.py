@@ -15,6 +15,7 @@ import sys
 import threading
 import time
 
+THREAD_START = threading.Thread.start
 INTERVAL = 0.004  # s of CPU time; the kernel's clock does not tick much faster
 
 
@@ -56,7 +57,7 @@ def _begin(folder: str) -> None:
 
     def leave():
         nonlocal told
-        if told or os.getpid() != process:  # of a fork, its parent tells
+        if told or os.getpid() != process:  # a fork tells of itself
             return
         told = True
         signal.setitimer(signal.ITIMER_PROF, 0)
@@ -74,7 +75,7 @@ def _begin(folder: str) -> None:
         with open(os.path.join(folder, f"{process}.json"), "w", encoding="utf-8") as file:
             file.write(f'{json.dumps(record)[:-1]}, "stacks": {stacks}}}')
 
-    start_thread = threading.Thread.start
+    start_thread = THREAD_START
 
     def start_unasked(thread):
         # only the main thread answers signals, so the kernel must not send them to others
@@ -87,6 +88,7 @@ def _begin(folder: str) -> None:
 
     threading.Thread.start = start_unasked
     atexit.register(leave)
+    os.register_at_fork(after_in_child=lambda: os.getppid() == process and _begin(folder))
     signal.signal(signal.SIGPROF, sample)
     # a thread that starts a process hands its mask on
     signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGPROF])

@@ -1,8 +1,8 @@
 """The library as others install it: wheel and sdist, in empty environments, without Snakemake.
 
 ``python tests/install/run.py`` builds both, installs the wheel with the newest versions allowed,
-the sdist with the oldest (oldest.txt), and runs smoke.py in each from an empty folder; so does a
-wheel of the logger plugin, which is a package of its own.
+the sdist with the oldest (oldest.txt), and runs smoke.py in each from an empty folder.  The plugins
+of Snakemake, packages of their own, are built, installed and imported.
 """
 
 import os
@@ -14,7 +14,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
-PLUGIN = PROJECT / "plugins/snakemake-logger-plugin-gelpump"
+PLUGINS = sorted((PROJECT / "plugins").iterdir())
 
 
 def run(*command: str | Path, cwd: Path) -> str:
@@ -31,17 +31,16 @@ def environment(folder: Path) -> Path:
     return folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 
 
-def built(folder: Path) -> tuple[Path, Path, Path]:
-    """Wheel and sdist of the library, and a wheel of the plugin."""
+def built(folder: Path) -> tuple[Path, Path, list[Path]]:
+    """Wheel and sdist of the library, and the wheels of the plugins."""
     python = environment(folder / "build")
     run(python, "-m", "pip", "install", "-q", "build", cwd=folder)
     dist = folder / "dist"
     run(python, "-m", "build", "--outdir", dist, PROJECT, cwd=folder)
-    run(python, "-m", "build", "--wheel", "--outdir", dist, PLUGIN, cwd=folder)
-    wheel, sdist, plugin = (
-        next(dist.glob(each)) for each in ("gelpump*.whl", "gelpump*.gz", "snakemake*.whl")
-    )
-    return wheel, sdist, plugin
+    for plugin in PLUGINS:
+        run(python, "-m", "build", "--wheel", "--outdir", dist, plugin, cwd=folder)
+    wheel, sdist = (next(dist.glob(each)) for each in ("gelpump*.whl", "gelpump*.gz"))
+    return wheel, sdist, sorted(dist.glob("snakemake*.whl"))
 
 
 def smoke(folder: Path, name: str, *what: str | Path) -> str:
@@ -57,13 +56,14 @@ def main() -> None:
     """Build, install, try."""
     with tempfile.TemporaryDirectory(prefix="install-") as scratch:
         folder = Path(scratch)
-        wheel, sdist, plugin = built(folder)
+        wheel, sdist, plugins = built(folder)
         print(smoke(folder, "newest", wheel), flush=True)
         print(smoke(folder, "oldest", sdist, "-c", HERE / "oldest.txt"), flush=True)
-        python = environment(folder / "plugin")
-        run(python, "-m", "pip", "install", "-q", plugin, cwd=folder)
-        run(python, "-c", "import snakemake_logger_plugin_gelpump.screen", cwd=folder)
-        print(f"plugin: {plugin.name}")
+        python = environment(folder / "plugins")
+        run(python, "-m", "pip", "install", "-q", *plugins, cwd=folder)
+        imported = "import snakemake_logger_plugin_gelpump.screen, snakemake_executor_plugin_warm"
+        run(python, "-c", imported, cwd=folder)
+        print("plugins:", *(plugin.name for plugin in plugins))
 
 
 if __name__ == "__main__":

@@ -5,10 +5,12 @@ import os
 import socket
 import subprocess
 import sys
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from snakemake.benchmark import benchmarked
+from snakemake.exceptions import WorkflowError
 from snakemake.executors import local
 from snakemake.script import PythonScript
 from snakemake_interface_executor_plugins.settings import ExecutorSettingsBase
@@ -85,25 +87,24 @@ class Server:
     def run(self, fname, script):
         """Run a script to its end; CalledProcessError if that is not a good one.
 
-        Its process keeps the far end of a socket of its own: it says who it is, then its exit
-        status, and if it is killed, nothing more.
+        Its process has the far end of a socket of its own: it says who it is, then its exit status,
+        or nothing more if it is killed, and ends when the near end does with Snakemake.
         """
         temporary = script.resources.get("tmpdir")
         environment = dict.fromkeys(TEMPORARY, temporary) if temporary else {}
         near, far = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with near:
-            with far:
+            with far, suppress(BrokenPipeError):
                 request = json.dumps([fname, environment]).encode()
                 socket.send_fds(self.socket, [request], [far.fileno()])
             process = near.recv(64)
-            if process and script.bench_record is not None:
-                with benchmarked(int(process), script.bench_record):
-                    status = near.recv(64)
-            else:
+            if not process:
+                raise WorkflowError("the interpreter that scripts are forked from has ended")
+            record = script.bench_record
+            with nullcontext() if record is None else benchmarked(int(process), record):
                 status = near.recv(64)
         if status != b"0":
-            command = f"{sys.executable} {fname}"
-            raise subprocess.CalledProcessError(int(status or -9), command)
+            raise subprocess.CalledProcessError(int(status or -9), f"{sys.executable} {fname}")
 
     def end(self):
         """No more forks."""

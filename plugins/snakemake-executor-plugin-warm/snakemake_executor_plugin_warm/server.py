@@ -9,7 +9,9 @@ import runpy
 import signal
 import socket
 import sys
+import threading
 import traceback
+from contextlib import suppress
 
 
 def main(descriptor: int, modules: list[str]) -> None:
@@ -21,20 +23,34 @@ def main(descriptor: int, modules: list[str]) -> None:
     asked = socket.socket(fileno=descriptor)
     asked.set_inheritable(False)
     interrupt = signal.signal(signal.SIGINT, signal.SIG_IGN)  # scripts hear it, and Snakemake does
-    reaped = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+    signal.signal(signal.SIGCHLD, lambda *_: reap(os.WNOHANG))
     while True:
         request, descriptors, _, _ = socket.recv_fds(asked, 65536, 1)
         if not request:
-            return
+            return reap(0)
         with socket.socket(fileno=descriptors[0]) as told:
             if os.fork() == 0:
                 asked.close()
                 signal.signal(signal.SIGINT, interrupt)
-                signal.signal(signal.SIGCHLD, reaped)
+                signal.signal(signal.SIGCHLD, signal.SIG_DFL)
                 told.send(str(os.getpid()).encode())
+                threading.Thread(target=end_with, args=(told,), daemon=True).start()
                 status = run(*json.loads(request))
                 told.send(str(status).encode())
                 os._exit(status)
+
+
+def reap(how: int) -> None:
+    """Take note of forks that have ended: their CPU time counts with this process's."""
+    with suppress(ChildProcessError):
+        while os.waitpid(-1, how)[0]:
+            pass
+
+
+def end_with(snakemake: socket.socket) -> None:
+    """End this process when there is nobody who waits for it."""
+    snakemake.recv(1)
+    os._exit(1)
 
 
 def run(script: str, environment: dict[str, str]) -> int:

@@ -32,6 +32,7 @@ MODELS = {
     "tube_flow": ("tube.wall_flow", "tube.lumen"),
     "water_budget": ("tube.wall_flow",),
     "lumen_pulse": ("tube.lumen",),
+    "tube_heat": ("tube.heated", "tube.stefan"),
     "pump_balance": ("tube.closure", "tube.pump"),
 }
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_bvp
 
 from gelpump.second_solvers import heated_tube
 from gelpump.tube import heated
@@ -12,7 +11,6 @@ from gelpump.tube.stefan import (
     bath_shift,
     circulated,
     front_constant,
-    tolerated,
 )
 from gelpump.tube.tubes import Tubes
 
@@ -38,11 +36,6 @@ def solved(cells, Le=LE, tolerance=1e-3):
 @pytest.fixture(scope="module")
 def runs():
     return [solved((n, n)) for n in (24, 48, 96)]
-
-
-def test_roots_of_the_similarity_solution():
-    root = front_constant(tubes(len(KINDS)), ST, Surrounding(KINDS))
-    assert root == pytest.approx([0.9539, 0.9189, 0.7226, 0.7271, 0.9539], abs=6e-5)
 
 
 def test_time_dependent_front_tends_to_the_root_at_second_order(runs):
@@ -110,43 +103,6 @@ def test_second_solver_agrees():
         )
         second = (d + (d - c) / 3) / np.sqrt(10 * tau)
         assert second == pytest.approx(first[row], rel=2e-4)
-
-
-def test_similarity_profile_by_another_solver():
-    """The two-sided boundary-value problem of a pipe, without erf: the fluxes differ by L."""
-    y = float(front_constant(tubes(1), ST[2], Surrounding("pipe"))[0]) / 2
-
-    def flux(start, end, at, where):
-        x = np.linspace(start, end, 200)
-        run = solve_bvp(
-            lambda x, u: [u[1], -2 * x * u[1]],
-            lambda a, b: [a[0] - at[0], b[0] - at[1]],
-            x,
-            np.zeros((2, x.size)),
-            tol=1e-9,
-        )
-        return run.y[1, where]
-
-    jump = flux(y, 7.0, (0, -1), 0) - flux(0.0, y, (1, 0), -1)
-    assert jump == pytest.approx(2 * y * F_ST[2] * np.cbrt(2), rel=1e-6)
-
-
-def test_tolerated_shift_is_that_of_the_root():
-    for shift, known in ((0.01, 0.0328), (0.05, 0.1762)):
-        limit = tolerated(shift)
-        assert limit == pytest.approx(known, rel=2e-3)
-        root = front_constant(tubes(1), limit / 0.75 / np.cbrt(2), Surrounding("pipe"))
-        assert root[0] == pytest.approx((1 - shift) * FRONT_CONSTANT, rel=1e-10)
-
-
-def test_bath_holds_a_thin_tube_back_in_proportion_and_a_fat_one_as_a_pipe():
-    thin = bath_shift(Tubes(ELL, 0.1), 1.0)
-    assert float(thin) == pytest.approx(-0.0207, abs=1e-4)
-    assert bath_shift(Tubes(ELL, 0.1), 2.0, 2.0) == pytest.approx(float(thin), rel=0.02)
-    small = 1e-6
-    pipe = np.log(front_constant(tubes(1), small, Surrounding("pipe")) / FRONT_CONSTANT) / small
-    fat = bath_shift(Tubes(ELL, 0.4), 1.0, 1e-3)  # heat stays within a tube that is a wide plate
-    assert float(fat) == pytest.approx(pipe[0], rel=2e-3)
 
 
 def test_printed_equation_has_a_front_of_its_own():

@@ -152,6 +152,13 @@ figure(
     },
 )
 
+figure(
+    "figX8_heat",
+    "Beyond the paper",
+    "how far the heat of a collapse holds the front back",
+    {"heat": "tube_heat"},
+)
+
 FIGURES = expand(
     "results/figures/{figure}.{suffix}", figure=DRAWN, suffix=["pdf", "png", "svg", "csv"]
 )

@@ -6,6 +6,7 @@ CLAIM_BEADS = ["swelling", "drying", "separating"]
 BEYOND = [
     "pump_balance",
     "wall_times",
+    "tube_heat",
     *(Path(file).stem for file in SEPARATED if file.endswith(".nc")),
 ]
 DRAWN_BEADS = {

@@ -13,6 +13,7 @@ TUBES = expand(
         "pump_balance",
         "pump_pulse",
         "pump_response",
+        "tube_heat",
         "wall_times",
         *(f"tube_flow_{view}" for view in config["tube_flow"]),
     ],
@@ -181,6 +182,25 @@ rule pump_balance:
         numerics=config["numerics"]["pump_balance"],
     script:
         "../scripts/pump_balance.py"
+
+
+rule tube_heat:
+    input:
+        src=modules("tube_heat"),
+    output:
+        f"{DATA}/tube_heat.nc",
+    log:
+        "results/logs/tube_heat.log",
+    benchmark:
+        "results/benchmarks/tube_heat.tsv"
+    priority: 2
+    params:
+        gel=tube_gel,
+        tube=config["tube"],
+        settings=config["tube_heat"],
+        numerics=config["numerics"]["tube_heat"],
+    script:
+        "../scripts/tube_heat.py"
 
 
 rule wall_times:

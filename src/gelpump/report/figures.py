@@ -130,6 +130,15 @@ DRAWINGS = {
         "swollen. Right: radius over the temperature at which separation begins, two rising "
         "curves, and a falling dashed one of the critical hoop stretch.",
     ),
+    "figX8_heat": Drawing(
+        "How far the heat of a collapse holds the front back",
+        "Top left: the front over the diffusion length against time, each curve tending to a dot; "
+        "the bath's is flat and highest, the insulated tubes' lowest. Top right: falling profiles "
+        "of temperature with a kink where they cross zero. Bottom left: shift of the front over "
+        "the latent heat, rising lines for pipe and bath, a nearly flat one for insulation. Bottom "
+        "right: position of the front over time on logarithmic axes, twice as steep by the printed "
+        "heat equation.",
+    ),
     "verification": Drawing(
         "Errors of the solvers on known solutions",
         "Errors over the number of cells and of time steps on logarithmic axes, falling along "

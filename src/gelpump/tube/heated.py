@@ -133,6 +133,11 @@ class HeatedFamily(Family):
         behind[:, 0] = 0.0
         return np.hstack([behind, X_C + g * np.sinh(np.arcsinh(reach / g) * self._ahead)])
 
+    def limit(self, *given: NDArray) -> None:
+        """That of `Family`; a trial X_C may lie behind, where nothing is to be limited."""
+        with np.errstate(over="ignore"):
+            super().limit(*given)
+
     def advance(self, t: float, guess: NDArray, alpha: float, history: NDArray) -> NDArray:
         """One implicit step in t = sqrt(tau); d/dt is alpha times the new value plus history."""
         stretch, _, X, theta, _, _ = self.unpack(guess)

@@ -142,25 +142,148 @@ def tubes():
 
 
 def walls():
-    """Times that follow (1-ell)^2.2 on one surface and place, and are 1 elsewhere."""
-    ell = np.array([0.1, 0.5, 0.9, 0.5])
-    tau99 = np.ones((2, 2, 4))
+    """Times that follow (1-ell)^2.2 and M^-1/2 on one surface in the middle, M^-1 on the other."""
+    ell, M = np.array([0.1, 0.5, 0.9, 0.5, 0.5]), np.array([1.0, 1.0, 1.0, 1.0, 10.0])
+    tau99 = np.ones((2, 2, 5))
     tau99[0, 0] = (1.0 - ell) ** 2.2
-    tau99[0, 0, 3] = 7.0
+    tau99[:, 0, 3:] = 7.0 * M[3:] ** np.array([[-0.5], [-1.0]])
     dims = ("surface", "place", "tube")
     return xr.Dataset(
         {
             "tau99": (dims, tau99),
             "tau99_uncertainty": (dims, DOUBT * tau99),
-            "tau99_printed": ("tube", (1.0 - ell) ** 2),
+            "tau99_printed": ("tube", (1.0 - ell) ** 2 * M**-0.8),
             "ell": ("tube", ell),
+            "M": ("tube", M),
         },
         {
             "surface": ["conservative", "balanced"],
             "place": ["midline", "mean"],
-            "varied": ("tube", ["ell", "ell", "ell", "M"]),
+            "varied": ("tube", ["ell", "ell", "ell", "M", "M"]),
         },
     )
+
+
+def with_doubts(dataset, share=DOUBT):
+    """The dataset, and the uncertainty of each of its variables."""
+    return dataset.assign(
+        {f"{name}_uncertainty": share * np.abs(dataset[name]) for name in dataset}
+    )
+
+
+def pumps():
+    """Tubes of which two closures conserve water, and the printed one pumps three times as much."""
+    tubes, tau = np.array([0.25, 0.75]), np.array([1e-3, 0.01, 0.1])
+    V = np.array([3.0, 1.0, 1.1])[:, None, None] * tubes[:, None] * (1.0 + 1e-4 / tau)
+    dims, wide = ("closure", "ell", "tau"), np.ones((3, 2, 3))
+    missing = np.array([0.2, 1e-14, 3e-14])[:, None, None] * wide
+    data = {"V_far": (dims, V), "V_far_order": (dims[:2], [[3.0, 3.0], [1.0, 1.01], [2.0, 2.0]])}
+    found = with_doubts(xr.Dataset(data))
+    found["V_far_geometry"] = (dims, wide * tubes[:, None])
+    found["water_balance_error"] = (dims, missing)
+    found["water_balance_step"] = (dims, 1e-15 * wide)
+    closures = ["printed", "conservative", "balanced"]
+    return found.assign_coords(closure=closures, ell=tubes, tau=tau)
+
+
+def separated(slower, phi):
+    """A bead whose front travels inwards; ``slower`` times as long as the first."""
+    front = np.array([1.0, 0.85, 0.6, 0.4, 0.15, 0.0])
+    r = np.tile(1.5 * np.array([0.05, 0.3, 0.5, 0.7, 0.95]), (6, 1))
+    outside = r > 1.5 * front[:, None]
+    fraction = np.where(outside, 0.8, 0.05)
+    fraction[1, 3], fraction[2, 0], fraction[2, 4] = phi, 0.04, 0.82
+    fraction[-1] = 0.8
+    return xr.Dataset(
+        {
+            "front_dry_radius": ("t", front),
+            "front_radius": ("t", 1.5 * front),
+            "front_present": ("t", [1, 1, 1, 1, 1, 0]),
+            "r": (("t", "cell"), r),
+            "polymer_fraction": (("t", "cell"), fraction),
+            "passage_time": ("passage", [1.0, 1.0 + slower]),
+            "passage_time_uncertainty": ("passage", [0.02, 0.03]),
+        },
+        {"t": np.arange(6.0), "passage": [0.7, 0.3]},
+        {
+            "completion_t": 4.0 * slower,
+            "completion_t_uncertainty": 0.1,
+            "radius_uncertainty": 1e-3,
+            "phi_initial": 0.05,
+            "birth_t": 0.1 * slower,
+        },
+    )
+
+
+def separation():
+    loss = xr.Dataset(
+        {"loss_temperature": (("model", "a"), [[0.0, 308.0, 308.4], [307.9, 0.0, 308.2]])},
+        {"model": ["lens", "nonlinear"]},
+    )
+    beads = {"nonlinear": separated(1.0, 0.06), "lens": separated(1.5, 0.07)}
+    found = {f"separation_separating_{model}": bead for model, bead in beads.items()}
+    return found | {"coexistence_HHT": loss}
+
+
+def truth():
+    """Fronts in two dimensions, of which those that move are four times as long as those at rest,
+    and slender tubes whose errors are one per cent, and 0.3 early on."""
+    ell, Pe, T = np.array([0.5, 0.75, 0.9]), np.array([0.0, 0.5, 1.0]), np.array([0.1, 1.0, 10.0])
+    thin, moving = 1.0 - ell[:, None], np.array([1.0, 2.0, 4.0])
+    share = (1 / np.log(1 / ell) - 2 * ell**2 / (1 - ell**2)) / 2
+    waves = with_doubts(
+        xr.Dataset(
+            {
+                "jump": (("ell", "Pe"), 0.3 + 0.0 * thin * moving),
+                "width_Phi": (("ell", "Pe"), 0.7 * thin * moving),
+                "A": (("ell", "Pe"), 20.0 * thin**-0.5 * moving),
+                "width_radius": (("ell", "Pe"), 2.0 * thin**0.5 * moving),
+                "share": (("ell", "Pe"), share[:, None] * np.array([9.0, 1.0, 7.0])),
+            }
+        ),
+        1e-4,
+    )
+    waves["shed"] = (("ell", "Pe"), thin * np.array([1e-12, 1.0, 2.0]))
+    waves["jump_M"], waves["jump_uncertainty_M"] = ("M", [0.2, 0.4]), ("M", [1e-4, 2e-4])
+    waves["jump_energy_M"] = ("M", [0.02, 0.06])
+    pulses = with_doubts(
+        xr.Dataset(
+            {
+                "A": (("ell", "T"), 20.0 * thin**-1.5 * np.array([2.0, 1.0, 1.0])),
+                "shed_ahead": (("ell", "T"), 0.3 + 0.1 * thin * np.array([1.0, -2.0, 1.0])),
+            }
+        )
+    )
+    pulses["water_balance_error"] = 1e-13
+    late = np.array([0.3, 0.01, -0.02])
+    errors = {
+        f"{name}_error": (("closure", "ell", "T"), np.array([1.0, 2.0, 3.0])[:, None, None]
+                          * np.array([1.0, 0.5, 0.2])[:, None] * size * late)
+        for name, size in (("V_far", 1.0), ("pumped", 2.0), ("width", 3.0))
+    }  # fmt: skip
+    errors["tau99_error"] = (("closure", "wall_ell"), [[-0.8, -0.6], [0.2, 0.4], [0.01, 0.03]])
+    errors["tau99_resolved_error"] = (
+        ("surface", "wall_ell", "place"), np.array([-0.5, 0.01])[:, None, None] * np.ones((2, 2, 2))
+    )  # fmt: skip
+    slender = with_doubts(xr.Dataset(errors))
+    verification = xr.Dataset(
+        {
+            "order": ("number", [1.99, 2.02, 1.0]),
+            "wall_balance_error": 1e-12,
+            "wave_balance_error": ("mesh", [1e-13, 2e-13]),
+            "bead_radius": (("t", "bead_mesh"), [[1.2, 1.25], [1.4, 1.41]]),
+            "bead_radius_nonlinear": ("t", [1.26, 1.405]),
+        }
+    )
+    closures = ["printed", "conservative", "balanced"]
+    return {
+        "waves": waves.assign_coords(ell=ell, Pe=Pe, M=[1.0, 3.0]),
+        "pulses": pulses.assign_coords(ell=ell, T=T),
+        "slenderness": slender.assign_coords(
+            closure=closures, ell=ell, T=T, surface=["conservative", "balanced"]
+        ),
+        "verification": verification,
+    }
 
 
 def flow():
@@ -199,6 +322,9 @@ _WORLD = Evidence(
         "materials_HHT": tabulated(GELS["HHT"], [300.0, 310.0], 301),
         **beads(),
         **tubes(),
+        **separation(),
+        **truth(),
+        "pump_balance": pumps(),
     },
     gels=GELS,
     cases={

@@ -152,7 +152,7 @@ def test_the_ledger_tells_the_value_that_disagrees(computed, size, measured):
     ("evidence", "file"),
     [
         ("front_fit: A", "data/front_fit.nc: A"),
-        ("truth/waves: shed", "truth/waves.nc: shed"),
+        ("truth/waves: shed", "truth/waves.nc: shed, by pump_truth"),
         ("config: scales", "config: scales"),
         ("docs/performance.md", "docs/performance.md"),
     ],

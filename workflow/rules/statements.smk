@@ -36,6 +36,7 @@ EVIDENCE = expand(
         *BEYOND,
     ],
 )
+TRUTH_RECORD = "workflow/reference/truth.json"  # of the last `pump_truth`
 VERDICTS = {
     "claims": "statements of the paper, checked",
     "ledger": "where the paper disagrees",
@@ -47,6 +48,7 @@ VERDICTS = {
 rule statements:
     input:
         data=EVIDENCE,
+        truth=TRUTH_RECORD,
         src=modules("statements"),
     output:
         claims="results/claims.json",

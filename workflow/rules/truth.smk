@@ -141,3 +141,16 @@ rule truth_statements:
         "results/logs/truth_statements.log",
     script:
         "../scripts/truth_statements.py"
+
+
+# On purpose only, after `pump_truth`: rewrites the record that each build's statements are from.
+rule record_truth:
+    input:
+        src=modules("record_truth"),
+    log:
+        "results/logs/record_truth.log",
+    params:
+        record=TRUTH_RECORD,
+        folder=TRUTH,
+    script:
+        "../scripts/record_truth.py"

@@ -8,12 +8,14 @@ with job(snakemake):
     from gelpump.statements import beyond, numbers, paper, views
     from gelpump.statements.statement import Evidence
     from gelpump.text import write_json, write_text
+    from gelpump.truth import record
 
     params, output = snakemake.params, snakemake.output
     gels = {name: from_config(name, block) for name, block in params.gels.items()}
     gels["tube"] = gels[params.tube["gel"]]
     evidence = Evidence(
-        data=netcdf.read_all(snakemake.input.data, "results/data"),
+        data=netcdf.read_all(snakemake.input.data, "results/data")
+        | record.read(snakemake.input.truth),
         gels=gels,
         cases=params.beads,
         tube=params.tube,

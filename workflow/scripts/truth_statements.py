@@ -8,7 +8,7 @@ with job(snakemake):
     from gelpump.statements.statement import Evidence
     from gelpump.text import write_json, write_text
 
-    data = netcdf.read_all(snakemake.input.data, "results/truth")
+    data = netcdf.read_all(snakemake.input.data, "results")
     evidence = Evidence(data=data, gels={}, cases={}, tube={}, scales={}, published={})
     records = list(truth.statements.records(evidence))
     write_json(records, snakemake.output.records)

@@ -97,9 +97,11 @@ class Collection(list[Statement]):
 def where_from(evidence: str) -> str:
     """ "dataset: variables" as the file below results that holds them; anything else as it is."""
     dataset, colon, variables = evidence.partition(": ")
-    known = colon and "." not in dataset and dataset != "config"
-    folder = "" if dataset.startswith("truth/") else "data/"
-    return f"{folder}{dataset}.nc: {variables}" if known else evidence
+    if not colon or "." in dataset or dataset == "config":
+        return evidence
+    if dataset.startswith("truth/"):
+        return f"{dataset}.nc: {variables}, by pump_truth"
+    return f"data/{dataset}.nc: {variables}"
 
 
 def said(function: Callable) -> str:

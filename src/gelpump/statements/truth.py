@@ -1,8 +1,10 @@
 """Statements about the tube in two dimensions, and about the slender one as measured by it.
 
-Their data are those of `snakemake pump_truth`, below results/truth. What a statement expects stands
-where the paper's value would.
+Their data are those of `snakemake pump_truth`, below results/truth, or as `gelpump.truth.record`
+keeps them for a build without it. What a statement expects stands where the paper's value would.
 """
+
+from functools import wraps
 
 import numpy as np
 
@@ -11,13 +13,27 @@ from gelpump.tube.front import power_law
 from gelpump.tube.wall_flow import lumen_share
 
 statements = Collection()
-states = statements.states
 WAVES, PULSES, SLENDER = "truth/waves", "truth/pulses", "truth/slenderness"
+VERIFICATION = "truth/verification"
 DOCS = "docs/truth.md"
 ORDER = 1.9  # least that is asked of the elements
 BALANCE = 1e-8  # of the water, at most
 MOVING = 1.0  # Pe of a front like that of figure 9
 FIGURE_9 = 1.0  # T of table 1 at tau = 0.01
+
+
+def states(id, where, evidence, text=""):
+    """As `Collection.states`; without the datasets of its evidence a statement is left out."""
+    needed = {evidence.partition(": ")[0]} | ({VERIFICATION} if "water" in id else set())
+
+    def of(compute):
+        @wraps(compute)
+        def if_there(e):
+            return compute(e) if needed <= e.data.keys() else None
+
+        return statements.states(id, where, evidence, text=text)(if_there)
+
+    return of
 
 
 def _resting(waves, name):
@@ -34,7 +50,7 @@ def _exponent(x, values, errors):
 @states("beyond-rest-no-flow", DOCS, f"{WAVES}: shed")
 def front_at_rest(e: Evidence) -> Computed:
     """A front at rest moves no water anywhere: the wall is in equilibrium, p = 0 throughout."""
-    shed = float(np.abs(e.data["waves"].shed.sel(Pe=0.0)).max())
+    shed = float(np.abs(e.data[WAVES].shed.sel(Pe=0.0)).max())
     text = "largest rate at which a wall with a front at rest sheds water"
     return Computed(holds(BALANCE - shed, 0.0), 0.0, shed, text)
 
@@ -43,7 +59,7 @@ def front_at_rest(e: Evidence) -> Computed:
 def jump_at_front(e: Evidence) -> Computed:
     """By how much Phi jumps at a front at rest, in the middle of the wall, at each ell; expected:
     it is continuous, as in the slender tube."""
-    jump, error = _resting(e.data["waves"], "jump")
+    jump, error = _resting(e.data[WAVES], "jump")
     return Computed(jump, error, paper={"value": 0.0 * jump, "resolution": 0.0})
 
 
@@ -51,7 +67,7 @@ def jump_at_front(e: Evidence) -> Computed:
 def width_of_front(e: Evidence) -> Computed:
     """Length from 10 to 90 % of Phi in the middle of the wall at a front at rest, over the wall's
     thickness, at each ell."""
-    waves = e.data["waves"]
+    waves = e.data[WAVES]
     width, error = _resting(waves, "width_Phi")
     thickness = 1 - waves.ell.values
     return Computed(width / thickness, error / thickness)
@@ -61,7 +77,7 @@ def width_of_front(e: Evidence) -> Computed:
 def front_left_behind(e: Evidence) -> Computed:
     """The length of the front is what the moving front leaves behind, and vanishes with its
     speed."""
-    waves = e.data["waves"]
+    waves = e.data[WAVES]
     rest, error = _resting(waves, "width_Phi")
     moving = waves.width_Phi.sel(Pe=MOVING, method="nearest").values
     share, error = (float(np.min(x / moving)) for x in (rest, error))
@@ -78,7 +94,7 @@ def front_left_behind(e: Evidence) -> Computed:
 @states("beyond-sharpness-law", "section 3.6, figure 9b", f"{PULSES}: A")
 def sharpness_law(e: Evidence) -> Computed:
     """n of A ~ (1-ell)^-n, fitted to the two-dimensional tubes at the time of figure 9."""
-    pulses = e.data["pulses"].sel(T=FIGURE_9, method="nearest")
+    pulses = e.data[PULSES].sel(T=FIGURE_9, method="nearest")
     law = power_law(pulses.ell.values, pulses.A.values, pulses.A_uncertainty.values)
     expected = {"value": 1.0, "resolution": 0.05}
     return Computed(law.exponent, law.exponent_uncertainty, paper=expected)
@@ -87,7 +103,7 @@ def sharpness_law(e: Evidence) -> Computed:
 @states("beyond-sharpness-thin", "section 3.6, figure 9b", f"{WAVES}: A")
 def sharpness_of_thin_walls(e: Evidence) -> Computed:
     """n of A ~ (1-ell)^-n between the two thinnest walls, front at rest."""
-    waves = e.data["waves"]
+    waves = e.data[WAVES]
     n, error = _exponent(waves.ell.values, *_resting(waves, "A"))
     return Computed(n, error, paper={"value": 1.0, "resolution": 0.05})
 
@@ -96,7 +112,7 @@ def sharpness_of_thin_walls(e: Evidence) -> Computed:
 def shape_of_thin_walls(e: Evidence) -> Computed:
     """n of the length over which the radius changes, ~ (1-ell)^n, between the two thinnest walls at
     rest: that of a shell that bends, 1/2, which no closure of the slender tube has."""
-    waves = e.data["waves"]
+    waves = e.data[WAVES]
     n, error = _exponent(waves.ell.values, *_resting(waves, "width_radius"))
     return Computed(-n, error, paper={"value": 0.5, "resolution": 0.06})
 
@@ -104,7 +120,7 @@ def shape_of_thin_walls(e: Evidence) -> Computed:
 @states("beyond-sheds-ahead", "section 3.6.1, figures 10 and 11", f"{PULSES}: shed_ahead")
 def wall_sheds_ahead(e: Evidence) -> Computed:
     """The tube draws water inwards ahead of the front."""
-    pulses = e.data["pulses"]
+    pulses = e.data[PULSES]
     least = pulses.shed_ahead.values.ravel().argmin()
     share = float(pulses.shed_ahead.values.ravel()[least])
     error = float(pulses.shed_ahead_uncertainty.values.ravel()[least])
@@ -122,14 +138,14 @@ def wall_sheds_ahead(e: Evidence) -> Computed:
 def share_of_lumen(e: Evidence) -> Computed:
     """Share of the water shed that enters the lumen, slowest moving wave, at each ell; expected:
     the closed formula of the slender tube."""
-    waves = e.data["waves"]
+    waves = e.data[WAVES]
     slow = waves.isel(Pe=int(np.flatnonzero(waves.Pe.values > 0)[0]))
     expected = {"value": lumen_share(waves.ell.values), "resolution": 0.005}
     return Computed(slow.share.values, slow.share_uncertainty.values, paper=expected)
 
 
 def _late_error(e, quantity, closure):
-    slender = e.data["slenderness"].sel(closure=closure)
+    slender = e.data[SLENDER].sel(closure=closure)
     late = slender[f"{quantity}_error"].values[:, slender["T"].values >= FIGURE_9]
     error = slender[f"{quantity}_error_uncertainty"].values[:, slender["T"].values >= FIGURE_9]
     worst = np.abs(late).argmax()
@@ -145,7 +161,7 @@ def _late_statements():
     for closure in ("printed", "conservative", "balanced"):
         for quantity, text in texts.items():
             said = (
-                f"Largest relative error of the {text}, slender tube ({closure}) against two "
+                f"largest relative error of the {text}, slender tube ({closure}) against two "
                 f"dimensions, T = tau/eps^2 >= {FIGURE_9:g}"
             )
 
@@ -166,7 +182,7 @@ _late_statements()
 def collapse_time(e: Evidence) -> Computed:
     """Relative error of tau_99 of a tube heated everywhere (printed, conservative, balanced), mean
     over ell."""
-    slender = e.data["slenderness"]
+    slender = e.data[SLENDER]
     error = slender.tau99_error_uncertainty.mean("wall_ell").values
     return Computed(slender.tau99_error.mean("wall_ell").values, error)
 
@@ -175,8 +191,8 @@ def collapse_time(e: Evidence) -> Computed:
 def wall_of_truth(e: Evidence) -> Computed:
     """tau_99 of walls heated everywhere (middle and mean, each ell), LENS resolved in the radius
     with force balance at the surface, over that of these elements."""
-    error = e.data["slenderness"].tau99_resolved_error.sel(surface="balanced").values.ravel()
-    doubt = e.data["slenderness"].tau99_resolved_error_uncertainty.sel(surface="balanced")
+    error = e.data[SLENDER].tau99_resolved_error.sel(surface="balanced").values.ravel()
+    doubt = e.data[SLENDER].tau99_resolved_error_uncertainty.sel(surface="balanced")
     expected = {"value": np.ones(error.size), "resolution": 0.02}
     return Computed(1 + error, doubt.values.ravel(), paper=expected)
 
@@ -185,24 +201,24 @@ def wall_of_truth(e: Evidence) -> Computed:
 def other_energy(e: Evidence) -> Computed:
     """Change of Phi's jump, over the jump, if the energy's second invariant stands for the first,
     at each M: what LENS leaves open at finite deviatoric strain."""
-    waves = e.data["waves"]
+    waves = e.data[WAVES]
     error = 2 * waves.jump_uncertainty_M.values / waves.jump_M.values
     return Computed(waves.jump_energy_M.values / waves.jump_M.values, error)
 
 
-@states("beyond-truth-order", DOCS, "truth/verification: order")
+@states("beyond-truth-order", DOCS, f"{VERIFICATION}: order")
 def order_of_elements(e: Evidence) -> Computed:
     """Radius at the front and share of the lumen converge at second order."""
-    order = float(e.data["verification"].order.values[:2].min())
+    order = float(e.data[VERIFICATION].order.values[:2].min())
     return Computed(holds(order - ORDER, 0.0), 0.0, order, "lower of the two orders measured")
 
 
 @states("beyond-truth-water", DOCS, f"{PULSES}: water_balance_error")
 def water_of_truth(e: Evidence) -> Computed:
     """The two-dimensional tube keeps its water at all times."""
-    verification = e.data["verification"]
+    verification = e.data[VERIFICATION]
     worst = max(
-        float(e.data["pulses"].water_balance_error),
+        float(e.data[PULSES].water_balance_error),
         float(verification.wall_balance_error),
         float(verification.wave_balance_error.max()),
     )
@@ -210,10 +226,10 @@ def water_of_truth(e: Evidence) -> Computed:
     return Computed(holds(BALANCE - worst, 0.0), 0.0, worst, text)
 
 
-@states("beyond-truth-bead", DOCS, "truth/verification: bead_radius, bead_radius_nonlinear")
+@states("beyond-truth-bead", DOCS, f"{VERIFICATION}: bead_radius, bead_radius_nonlinear")
 def bead_of_truth(e: Evidence) -> Computed:
     """Radius of a swelling bead by these elements; expected: the nonlinear bead's own solver."""
-    verification = e.data["verification"]
+    verification = e.data[VERIFICATION]
     radius = verification.bead_radius.values
     error = np.abs(np.diff(radius, axis=1)[:, -1]) if radius.shape[1] > 1 else 1e-3 * radius[:, -1]
     expected = {"value": verification.bead_radius_nonlinear.values, "resolution": 0.0}

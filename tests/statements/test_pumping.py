@@ -40,6 +40,7 @@ def test_each_has_the_status_that_its_numbers_give(solved):
         "beyond-conservation": "reproduced",
         "beyond-pump-direction": "reproduced",
         "beyond-pump-geometry": "reproduced",
+        "beyond-pump-early": "reproduced",
         "beyond-pump-order": "reproduced",
         "beyond-pump-printed": "deviates",
         "beyond-wall-time": "deviates",
@@ -54,10 +55,17 @@ def test_they_can_come_out_otherwise(solved):
     balance["V_far"][0] = balance.V_far[1]
     balance["water_balance_error"][2, 0, 0] = 1e-6
     balance["V_far"][1, 1, -1] *= 1.01
+    balance["V_far"][1, 1, 6] *= 1.03  # tau = 0.01
     balance["V_far_order"][1] = 0.5
     walls["tau99"][:] = walls.tau99_printed
     found = judged({"pump_balance": balance, "wall_times": walls})
-    for statement in ("conservation", "pump-direction", "pump-geometry", "pump-order"):
+    for statement in (
+        "conservation",
+        "pump-direction",
+        "pump-geometry",
+        "pump-order",
+        "pump-early",
+    ):
         assert found[f"beyond-{statement}"]["status"] == "deviates", statement
     for statement in ("pump-printed", "wall-time", "wall-stiffness"):
         assert found[f"beyond-{statement}"]["status"] == "reproduced", statement

@@ -34,6 +34,8 @@ MODELS = {
     "lumen_pulse": ("tube.lumen",),
     "tube_heat": ("tube.heated", "tube.stefan"),
     "pump_balance": ("tube.closure", "tube.pump"),
+    "cycle_beads": ("cycles.bead",),
+    "cycle_tube": ("cycles.tube", "cycles.programme"),
 }
 
 

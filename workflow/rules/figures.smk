@@ -151,6 +151,16 @@ figure(
         "phases": f"coexistence_{config['separation']['coexistence']['gel']}",
     },
 )
+figure(
+    "figX9_cycle",
+    "Beyond the paper",
+    "beads and tubes that are heated and cooled again and again",
+    {"beads": "cycle_beads", "tube": "cycle_tube"},
+    curves={
+        case["gel"]: config["gels"][case["gel"]]
+        for case in config["cycles"]["beads"]["cases"].values()
+    },
+)
 
 figure(
     "figX8_heat",

@@ -11,6 +11,7 @@ FRONTS = expand(
 SEPARATED = [
     *FRONTS,
     f"{DATA}/coexistence_{SEPARATION_GEL}.nc",
+    f"{DATA}/cycle_beads.nc",
 ]
 
 
@@ -24,6 +25,26 @@ rule separation:
             model=["nonlinear", "lens"],
         ),
     localrule: True
+
+
+rule cycle_beads:
+    input:
+        src=modules("cycle_beads"),
+    output:
+        f"{DATA}/cycle_beads.nc",
+    log:
+        "results/logs/cycle_beads.log",
+    benchmark:
+        "results/benchmarks/cycle_beads.tsv"
+    priority: 1
+    params:
+        gels={
+            case["gel"]: config["gels"][case["gel"]]
+            for case in config["cycles"]["beads"]["cases"].values()
+        },
+        beads=config["cycles"]["beads"],
+    script:
+        "../scripts/cycle_beads.py"
 
 
 rule separation_front:

@@ -15,6 +15,7 @@ TUBES = expand(
         "pump_response",
         "tube_heat",
         "wall_times",
+        "cycle_tube",
         *(f"tube_flow_{view}" for view in config["tube_flow"]),
     ],
 )
@@ -219,3 +220,22 @@ rule wall_times:
         settings=config["wall_times"],
     script:
         "../scripts/wall_times.py"
+
+
+rule cycle_tube:
+    input:
+        src=modules("cycle_tube"),
+    output:
+        f"{DATA}/cycle_tube.nc",
+    log:
+        "results/logs/cycle_tube.log",
+    benchmark:
+        "results/benchmarks/cycle_tube.tsv"
+    priority: 2
+    params:
+        gel=tube_gel,
+        tube=config["tube"],
+        settings=config["cycles"]["tube"],
+        numerics=config["cycles"]["numerics"],
+    script:
+        "../scripts/cycle_tube.py"

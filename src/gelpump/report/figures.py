@@ -139,6 +139,14 @@ DRAWINGS = {
         "right: position of the front over time on logarithmic axes, twice as steep by the printed "
         "heat equation.",
     ),
+    "figX9_cycle": Drawing(
+        "Heated and cooled, again and again",
+        "Top left: loops of a bead's radius over temperature, thin and slow, wide and fast, one "
+        "of a gel that jumps at two temperatures, about grey equilibrium curves. Top right: the "
+        "programme and the radius over time. Below left: water past a station over two cycles, "
+        "rising while the end is hot and back to zero after, with dots of a second solver. Below "
+        "right: what a cycle moves and what it leaves, over the period on logarithmic axes.",
+    ),
     "verification": Drawing(
         "Errors of the solvers on known solutions",
         "Errors over the number of cells and of time steps on logarithmic axes, falling along "

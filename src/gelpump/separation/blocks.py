@@ -38,7 +38,7 @@ class Whole:
 
     def jacobian(self, y: NDArray) -> NDArray:
         """d(rate)/dy, dense."""
-        return _banded(self.rate, y, np.diff(y, prepend=0.0))
+        return banded(self.rate, y, np.diff(y, prepend=0.0))
 
     def margins(self, y: NDArray) -> dict[str, float]:
         """Positive each, until the surface has no state of its phase."""
@@ -120,7 +120,7 @@ class Divided:
             return (fixed + drift * speed)[:-1]
 
         J = np.zeros((y.size, y.size))
-        J[:-1, :-1] = _banded(at_speed, y[:-1], thickness[:-1])
+        J[:-1, :-1] = banded(at_speed, y[:-1], thickness[:-1])
         for j in (*range(self.core - 3, self.core + 2), y.size - 1):
             step = np.zeros_like(y)
             step[j] = DIFFERENCE * thickness[j : j + 2].min()
@@ -175,7 +175,7 @@ def graded_core(cells: int, layer: float) -> NDArray:
     return graded(cells, AHEAD * layer)
 
 
-def _banded(rate, y: NDArray, thickness: NDArray) -> NDArray:
+def banded(rate, y: NDArray, thickness: NDArray) -> NDArray:
     """Central differences of a rate of which each row depends on two neighbours on either side."""
     J = np.zeros((y.size, y.size))
     step = DIFFERENCE * np.minimum(thickness, np.append(thickness[1:], np.inf))

@@ -83,6 +83,9 @@ def test_interfaces_carry_a_bead_through_both_folds_and_a_loop_remains():
 
 
 def test_what_is_no_bead_is_refused():
+    folds = Programme.cycles(303.0, 307.0, 1.0, 1)
+    with pytest.raises(ValueError, match="shells of 20 on the swollen side"):
+        bead.solve(ANB, folds, [0, 1], 20, tolerance=1e-5, width=0.1)
     with pytest.raises(ValueError, match="must be one of"):
         bead.solve(
             HHT, Programme.cycles(304.0, 305.0, 1.0, 1), [0, 1], 20, tolerance=1e-5, model="x"

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from gelpump.cycles.programme import Programme
 from gelpump.separation import diffuse
 from gelpump.separation.blocks import banded
+from gelpump.separation.coexistence import equal_area
 from gelpump.separation.energy import ENERGIES
 from gelpump.separation.shells import (
     at_means,
@@ -31,6 +32,7 @@ from gelpump.separation.shells import (
     polymer_fraction,
     soundness,
 )
+from gelpump.separation.watch import PER_WIDTH, WIDTH_AT
 
 SOUGHT = 600  # polymer fractions among which the surface's is bracketed
 BOUNDS = 1e-6, 1 - 1e-9
@@ -135,6 +137,14 @@ class Diffuse:
 
     def __init__(self, energy, cells: int, width: float, at: float):
         energy.temperature = at
+        sides = equal_area(energy, WIDTH_AT)
+        least = PER_WIDTH / (sides[0] * WIDTH_AT**2) / cells
+        if not least <= width <= diffuse.WIDEST:
+            raise ValueError(
+                f"width = {width}: must be at least {least:.3g}, {PER_WIDTH:g} shells of {cells} "
+                f"on the swollen side, and at most {diffuse.WIDEST}"
+            )
+        self.middle = 0.5 * sum(sides)
         kappa = (width / diffuse.width_per_root_kappa(energy)) ** 2
         self.bead = diffuse.Bead(energy, kappa, cells)
         self.R, self.bands = self.bead.R, 2
@@ -149,7 +159,10 @@ class Diffuse:
         return True
 
     def margin(self, r: NDArray) -> float:
-        """Never lost, while shells keep their order."""
+        """Never lost, while shells keep their order and there is one front at most."""
+        dense = self.phi(r) > self.middle
+        if np.count_nonzero(dense[1:] != dense[:-1]) > 1:
+            return -1.0
         return float(np.diff(r, prepend=0.0).min())
 
     def phi(self, r: NDArray) -> NDArray:
@@ -157,8 +170,8 @@ class Diffuse:
         return self.bead.shells(r)[1]
 
     def place(self, r: NDArray) -> str:
-        """Tangled shells."""
-        return "shells are tangled"
+        """What it stands for."""
+        return "in layers: its shells are too few, or it decomposes"
 
 
 def solve(

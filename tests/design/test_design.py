@@ -13,10 +13,13 @@ from scipy.integrate import quad
 from scipy.special import erfinv
 
 from gelpump.design import __main__ as command
-from gelpump.design import dataset, description, device, inverse, units, validity
+from gelpump.design import dataset, description, device, heat, inverse, units, validity
 from gelpump.design.gel_errors import gel_errors, gel_note
 from gelpump.design.result import AMBER, GREEN, RED
 from gelpump.materials import measured
+from gelpump.tube.heat import FRONT_CONSTANT
+from gelpump.tube.stefan import Surrounding, front_constant
+from gelpump.tube.tubes import Tubes
 
 PROJECT = Path(__file__).resolve().parents[2]
 GELS = yaml.safe_load((PROJECT / "config/config.yaml").read_text())["gels"]
@@ -140,6 +143,14 @@ def test_units_do_not_matter():
         ({"gel": "HHT", "critical_temperature": "80 degC"}, "must be within 290 to 320 K"),
         ({"gel": "HHT", "osmotic_modulus": "1 kPa"}, "osmotic_modulus = '1 kPa': not allowed"),
         ({"wanted": {"response_time": "10 m"}}, "wanted.response_time = '10 m': is in m"),
+        ({"surrounding": "air"}, "surrounding = 'air': must be one of ['unknown', 'bath', 'pipe',"),
+        ({"surrounding": "pipe"}, "pipe_section is missing: surrounding = 'pipe' needs it"),
+        ({"pipe_section": "1 mm^2"}, "pipe_section = '1 mm^2': only goes with surrounding"),
+        ({"surrounding": "pipe", "pipe_section": "0.03 mm^2"}, "pipe_section = '0.03 mm^2': must"),
+        ({"surrounding": "pipe", "pipe_section": "1 mm"}, "pipe_section = '1 mm': is in mm"),
+        ({"enthalpy": "-50 J/g"}, "enthalpy = '-50 J/g': is negative"),
+        ({"enthalpy": "50 J"}, "enthalpy = '50 J': is in J; must be a heat per dry mass"),
+        ({"enthalpy": "none"}, "enthalpy = 'none': is not a number with a unit; must be a heat"),
         ({"wanted": {"colour": "red"}}, "wanted.colour = 'red': no such key"),
     ],
 )  # fmt: skip
@@ -149,7 +160,7 @@ def test_refusals_name_key_value_and_what_is_allowed(change, told):
     assert told in str(refusal.value)
 
 
-@pytest.mark.parametrize("key", [k for k in block("microtube") if k not in ("title", "wanted")])
+@pytest.mark.parametrize("key", description.schema()["tube"]["required"])
 def test_a_missing_key_is_named(key):
     rest = block("microtube")
     del rest[key]
@@ -426,3 +437,69 @@ def test_a_gel_that_its_errors_make_impossible_is_told_so():
     with pytest.raises(description.DesignError) as refusal:
         gel_errors("mine", block("millitube") | {"gel": "synthetic"}, wide)
     assert "not carried over" in gel_note(refusal.value)
+
+
+def heated(**changed):
+    found = design("microtube", **changed)
+    return found, next(e for e in validity.before_solving(found) if e.criterion is heat.HEAT)
+
+
+def test_groups_of_heat_by_hand():
+    found, light = heated(enthalpy="5.5 kJ/mol", surrounding="pipe", pipe_section="0.0628 mm^2")
+    stored = UNIT("4.18e6 J/m^3/K") * UNIT("3 K")
+    dry = UNIT("5.5 kJ/mol") / UNIT("113.16 g/mol") * UNIT("1100 kg/m^3")
+    St = (0.05 * dry / stored).to("").magnitude
+    assert number(found, "St").value == pytest.approx(St, rel=1e-12)
+    assert number(found, "P").value == pytest.approx((UNIT("10 kPa") / stored).to("").magnitude)
+    assert heat.groups(found)["N"] == pytest.approx(305.15 / 3, rel=1e-9)
+    per_mass = heated(enthalpy=f"{5.5e3 / 113.16:.12g} J/g", surrounding="bath")[0]
+    assert number(per_mass, "St").value == pytest.approx(St, rel=1e-9)
+    section = 0.0628e-6 / (math.pi * 1e-8)
+    assert heat.section(found) == pytest.approx(section, rel=1e-9)
+    assert number(found, "f_St").value == pytest.approx(0.75 * St / section, rel=1e-9)
+    tube = Tubes(0.5, 0.05)
+    held = float(front_constant(tube, St, Surrounding("pipe", section))[0] / FRONT_CONSTANT)
+    assert light.value == pytest.approx(1 - held, rel=1e-9)
+    times = number(found, "travel_time_held_back").value, number(found, "travel_time").value
+    assert times[0] / times[1] == pytest.approx(held**-2, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("change", "light", "told"),
+    [
+        ({"surrounding": "bath", "enthalpy": "50 J/g"}, GREEN, "in a bath"),
+        ({"surrounding": "bath"}, GREEN, "6.5 kJ/mol, the enthalpy being unknown"),
+        ({"surrounding": "pipe", "pipe_section": "0.07 mm^2", "enthalpy": "50 J/g"}, AMBER, "pipe"),
+        (
+            {"surrounding": "pipe", "pipe_section": "0.0315 mm^2", "enthalpy": "150 J/g"},
+            RED,
+            "pipe",
+        ),
+        ({"surrounding": "pipe", "pipe_section": "0.0315 mm^2"}, AMBER, "unknown"),
+        ({"surrounding": "pipe", "pipe_section": "10 mm^2"}, GREEN, "unknown"),
+        ({"surrounding": "insulated", "enthalpy": "50 J/g"}, RED, "if insulated"),
+        ({"surrounding": "unknown", "enthalpy": "50 J/g"}, AMBER, "surrounding unknown"),
+        ({"gel": "linear", "osmotic_modulus": "10 kPa"}, AMBER, "polymer fraction is not given"),
+    ],
+)
+def test_the_light_of_heat(change, light, told):
+    found = heated(**change)[1]
+    assert found.light == light, found
+    assert told in found.reason
+
+
+def test_a_bead_is_cooled_by_its_collapse():
+    found = design("bead")
+    light = next(e for e in validity.before_solving(found) if e.criterion is heat.HEAT)
+    assert light.light == GREEN
+    fast = heat.shift(design("bead", permeability="5e-15 m^2"), "bath", number(found, "St").value)
+    assert abs(fast) == pytest.approx(1000 * light.value, rel=1e-9)
+
+
+def test_an_energy_tells_its_own_latent_heat():
+    found = design("millitube")
+    gel, T = found.material.gel, 305.0
+    unit = 1.380649e-23 * T**2 / 3e-29
+    U = [-unit * (1 - x) * (gel.B0 + gel.B1 * x) for x in found.material.phi_00 * np.array(
+        [1, found.material.Phi_inf])]  # fmt: skip
+    assert number(found, "own_latent_heat").value == pytest.approx(U[1] - U[0], rel=1e-8)

@@ -83,7 +83,7 @@ def main(arguments: list[str] | None = None) -> int:
             print(f"within {longest:g} s, {'no light red' if lights == AMBER else 'all green'}:")
             for each in inverse.ranges(design, longest, now, lights):
                 print(f"  {inverse.sentence(each)}")
-        print("closeness and the lumen's pressure and flow need a solution: build its sheet")
+        print("heat, closeness and the lumen's pressure and flow are judged by building the change")
     elif wanted is not None:
         print("a bead's response needs its solution: build its sheet")
     return 0

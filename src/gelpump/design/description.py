@@ -13,6 +13,7 @@ from typing import Any
 
 from gelpump.config import ConfigError, require_plain, schema_problems, value_problems
 from gelpump.design import units
+from gelpump.design.heat import UNKNOWN, given_latent_heat
 from gelpump.design.material import Material, from_energy, from_moduli, from_ratios
 
 OFFSET = "a difference of temperatures, in K or delta_degC"
@@ -26,7 +27,8 @@ class DesignError(ConfigError):
 class Design:
     """A checked design. ``given`` holds its pint quantities by key, each in its SI unit.
 
-    Lengths of a tube are a_0, a_1, heated_length; of a bead, radius.
+    Lengths of a tube are a_0, a_1, heated_length; of a bead, radius. ``surrounding`` is what
+    conducts heat beside a tube; latent_heat is among the given if its enthalpy is known.
     """
 
     name: str
@@ -37,6 +39,7 @@ class Design:
     T_cold: float
     T_hot: float
     wanted: Mapping[str, Any]
+    surrounding: str = UNKNOWN
 
     def si(self, key: str) -> float:
         """The magnitude of a given quantity in its SI unit."""
@@ -106,11 +109,13 @@ def checked(name: str, block: Any, gels: Mapping[str, Any]) -> Design:
         )
     T_cold, T_hot = round(T_C - step, 9), round(T_C + step, 9)
     try:
+        given_latent_heat(block, given)
         material = _material(block, given, gel, gels, T_cold, T_hot)
     except ValueError as refusal:
         _refuse(name, [str(refusal)])
     return Design(
-        name, kind, block.get("title", name), given, material, T_cold, T_hot, wanted
+        name, kind, block.get("title", name), given, material, T_cold, T_hot, wanted,
+        block.get("surrounding", UNKNOWN),
     )  # fmt: skip
 
 

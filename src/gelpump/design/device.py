@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gelpump.design import units
+from gelpump.design import heat, units
 from gelpump.design.description import Design
 from gelpump.design.result import Result
 
@@ -149,4 +149,5 @@ def bead_results(design: Design) -> list[Result]:
 
 def results(design: Design) -> list[Result]:
     """What the formulae say of the device."""
-    return tube_results(design) if design.kind == "tube" else bead_results(design)
+    own = tube_results(design) if design.kind == "tube" else bead_results(design)
+    return own + heat.results(design)

@@ -6,10 +6,11 @@ By scaling, exactly, with I the quadrature of t_99 (section 3.4), which holds th
 
 so that the longest time allowed bounds the thickness from above and k and Pi_00 (the moduli keeping
 their ratios) from below. The lights that need no solution bound from the other side: slenderness,
-the Lewis number, the coupling G and the number of pores across the wall, each by a power of the
-parameter. A light that the parameter does not move, but that is worse than asked for, leaves no
-range. `lights` asks for amber at least, or for green. Closeness and the lumen's flow are judged by
-solving the design forward.
+the coupling G and the number of pores across the wall, each by a power of the
+parameter. The Lewis number bounds beads only: a tube's front of heat does not ask for it, and what
+holds that back is judged by building the change, as closeness and the lumen's flow are. A light
+that the parameter does not move, but that is worse than asked for, leaves no range. `lights` asks
+for amber at least, or for green.
 """
 
 import math
@@ -18,6 +19,7 @@ from dataclasses import dataclass, replace
 from gelpump.design import units
 from gelpump.design.description import Design
 from gelpump.design.device import lewis_number
+from gelpump.design.heat import HEAT
 from gelpump.design.result import AMBER, GREEN, LIGHTS
 from gelpump.design.validity import (
     CONTINUUM,
@@ -25,15 +27,16 @@ from gelpump.design.validity import (
     LEWIS,
     PLAUSIBLE,
     SLENDER,
+    USUAL,
     before_solving,
     unusual,
 )
 
 MOVED = {  # which lights a parameter moves
     "radius": {CONTINUUM},
-    "wall": {CONTINUUM},
-    "a_1": {CONTINUUM, COUPLING, SLENDER},
-    "size": {CONTINUUM, COUPLING, SLENDER},
+    "wall": {CONTINUUM, HEAT},
+    "a_1": {CONTINUUM, COUPLING, SLENDER, HEAT},
+    "size": {CONTINUUM, COUPLING, SLENDER, HEAT},
     "permeability": {LEWIS, COUPLING, CONTINUUM},
     "osmotic_modulus": {LEWIS},
 }
@@ -88,6 +91,8 @@ def ranges(design: Design, wanted: float, now: float, lights: str = AMBER) -> li
                   a * math.sqrt(faster), time),
         ]  # fmt: skip
         thickness, coupled = a, math.inf
+        conducting = Le / limit[LEWIS], LEWIS.text
+        stiffest = Pi_00 * conducting[0], conducting[1]
     else:
         a_0, a_1, L = (design.si(key) for key in ("a_0", "a_1", "heated_length"))
         wall = a_1 - a_0
@@ -106,13 +111,15 @@ def ranges(design: Design, wanted: float, now: float, lights: str = AMBER) -> li
                    [(a_1 * math.sqrt(faster), time), (widest, SLENDER.text)]),
         ]  # fmt: skip
         coupled = limit[COUPLING] * a_1**2
-    conducting = Le / limit[LEWIS]
+        conducting = math.inf, LEWIS.text  # a tube's front does not ask for Le
+        stiffest = USUAL["osmotic_modulus"][1], PLAUSIBLE.text
     found += [
         _range("permeability", "permeability", "m^2", k, [(k / faster, time)],
-               [(k * conducting, LEWIS.text), (coupled, COUPLING.text),
-                ((thickness / limit[CONTINUUM]) ** 2, CONTINUUM.text)]),
+               [(k * conducting[0], conducting[1]), (coupled, COUPLING.text),
+                ((thickness / limit[CONTINUUM]) ** 2, CONTINUUM.text),
+                (USUAL["permeability"][1], PLAUSIBLE.text)]),
         _range("osmotic_modulus", "osmotic modulus, all moduli in proportion", "Pa", Pi_00,
-               [(Pi_00 / faster, time)], [(Pi_00 * conducting, LEWIS.text)]),
+               [(Pi_00 / faster, time)], [stiffest]),
     ]  # fmt: skip
     seen, odd = before_solving(design), set(unusual(design))
     return [_blocked(each, seen, lights, odd) for each in found]

@@ -55,13 +55,14 @@ class Criterion:
 
 @dataclass(frozen=True)
 class Light:
-    """An assumption, the number it was judged by, and why."""
+    """An assumption, the number it was judged by, and why; amber where that is not known."""
 
     criterion: Criterion
     value: float
     reason: str
+    unknown: bool = False
 
     @property
     def light(self) -> str:
         """Green, amber or red."""
-        return self.criterion.light(self.value)
+        return AMBER if self.unknown else self.criterion.light(self.value)

@@ -72,8 +72,8 @@ def notes(data: xr.Dataset) -> list[str]:
         said = "Ranges are of one parameter at a time, the others as designed"
         if data.attrs["kind"] == "tube":
             said += (
-                "; closeness and the lumen's pressure and flow are judged by building the change. "
-                "Their time is that printed: resolved in r, the wall takes "
+                "; heat, closeness and the lumen's pressure and flow are judged by building the "
+                "change. Their time is that printed: resolved in r, the wall takes "
                 f"{_slower(data, 'resolved')} times as long ({_slower(data, 'forceless')} times "
                 "if no force acts on its surfaces)"
             )

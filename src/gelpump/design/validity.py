@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gelpump.design import units
+from gelpump.design import heat, units
 from gelpump.design.description import Design
 from gelpump.design.device import diffusivity, lewis_number
 from gelpump.design.result import Criterion, Light
@@ -46,6 +46,7 @@ CRITERIA = (
     FIT,
     SLENDER,
     LEWIS,
+    heat.HEAT,
     CLOSE,
     ONE_PHASE,
     LINEAR,
@@ -68,6 +69,11 @@ USUAL = {
     "critical_temperature": (250.0, 400.0),
     "heating_step": (1e-3, 100.0),
     "density": (500.0, 2000.0),
+    "pipe_section": (1e-14, 1.0),
+    "latent_heat": (1e5, 1e9),  # of dry polymer; PNIPAM 5e7 to 6e7 J/m^3
+    "repeat_unit": (0.02, 2.0),
+    "polymer_density": (500.0, 2500.0),
+    "heat_capacity": (1e6, 6e6),
     "molecule_volume": (1e-29, 1e-27),
     "osmotic_modulus": (1.0, 1e9),
     "shear_modulus": (0.1, 1e9),
@@ -148,10 +154,8 @@ def own_response_time(design: Design) -> float | None:
 
 def before_solving(design: Design) -> list[Light]:
     """The lights that need no solution."""
-    Le, D = lewis_number(design), units.si(diffusivity(design), "m^2/s")
     k = design.si("permeability")
-    kappa = design.si("thermal_diffusivity")
-    found = []
+    found = [heat.light(design)]
     if design.kind == "tube":
         a_0, a_1, L = (design.si(key) for key in ("a_0", "a_1", "heated_length"))
         thickness, what = a_1 - a_0, "the wall"
@@ -165,10 +169,14 @@ def before_solving(design: Design) -> list[Light]:
         ]
     else:
         thickness, what = design.si("radius"), "the bead"
+        Le, D = lewis_number(design), units.si(diffusivity(design), "m^2/s")
+        kappa = design.si("thermal_diffusivity")
+        found.append(
+            Light(LEWIS, Le, f"Le = κ/D = {told(kappa, 2)}/{told(D, 2)} = {told(Le)}; "
+                  "the bead is warm throughout before its water moves")
+        )  # fmt: skip
     pores = thickness / k**0.5
     found += [
-        Light(LEWIS, Le, f"Le = κ/D = {told(kappa, 2)}/{told(D, 2)} = {told(Le)}; "
-              "flow moves heat by about 1/Le"),
         Light(CONTINUUM, pores,
               f"{what} is {told(pores, 2)} times √k = {told(k**0.5 * 1e9, 2)} nm thick"),
         _plausible(design),

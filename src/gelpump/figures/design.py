@@ -13,7 +13,7 @@ from gelpump.figures import style
 LIGHT_COLOURS = {"green": "#009E73", "amber": "#E69F00", "red": "#D55E00"}
 LIGHT_MARKERS = {"green": "o", "amber": "^", "red": "s"}
 PAGE = (8.27, 11.69)  # inches, A4
-LINE = 0.0128  # of the page
+LINE = 0.0121  # of the page
 
 
 def pictures(data) -> Figure:
@@ -34,10 +34,10 @@ def _page(data):
     fig.set_layout_engine("none")
     fig.text(0.07, 0.962, data.attrs["design_title"], fontsize=15, va="center")
     fig.text(0.07, 0.943, sheet.subtitle(data), fontsize=7.5, color=style.GREY, va="center")
-    part = fig.add_gridspec(1, 1, left=0.07, right=0.93, bottom=0.69, top=0.92)
+    part = fig.add_gridspec(1, 1, left=0.07, right=0.93, bottom=0.705, top=0.922)
     inner = part[0].subgridspec(2, 2, height_ratios=[1.0, 1.15], hspace=0.5, wspace=0.28)
     _draw(fig, data, inner)
-    y = _rows(fig, 0.648, "Numbers", sheet.number_rows(data), (0.07, 0.46, 0.47, 0.93))
+    y = _rows(fig, 0.666, "Numbers", sheet.number_rows(data), (0.07, 0.46, 0.47, 0.93))
     y = _lights(fig, y - LINE, data)
     y = _wanted(fig, y - LINE, data)
     for note in sheet.notes(data):

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 
-def cpu(run: Callable[[], Any], repeats: int = 3, enough: float = 2.0) -> tuple[float, Any]:
+def cpu(run: Callable[[], Any], repeats: int = 2, enough: float = 1.0) -> tuple[float, Any]:
     """Least CPU seconds (user and system) of some runs, and what the last returned.
 
     A run of more than ``enough`` seconds is not repeated.

@@ -69,6 +69,27 @@ def test_a_process_samples_itself(tmp_path):
     assert record["memory_mb"] > 5
 
 
+FORK = """
+import atexit, os, time
+if os.fork() == 0:
+    while time.process_time() < 0.3:
+        pass
+    atexit._run_exitfuncs()
+    os._exit(0)
+os.wait()
+"""
+
+
+def test_a_fork_samples_itself_and_nothing_of_its_parent(tmp_path):
+    sampling = Path(profile.__file__).parent / "sampling"
+    environment = os.environ | {"PYTHONPATH": str(sampling), "GELPUMP_PROFILE": str(tmp_path)}
+    subprocess.run([sys.executable, "-c", FORK], env=environment, check=True)
+    records = [json.loads(file.read_text(encoding="utf-8")) for file in tmp_path.glob("*.json")]
+    fork = max(records, key=lambda record: record["seconds"])
+    assert len(records) == 2
+    assert sum(seconds for _, seconds in fork["stacks"]) == pytest.approx(0.3, rel=0.1)
+
+
 def test_without_being_asked_a_process_is_left_alone(tmp_path):
     sampling = Path(profile.__file__).parent / "sampling"
     ask = "import signal; print(signal.getsignal(signal.SIGPROF) == signal.SIG_DFL)"
@@ -184,7 +205,20 @@ def test_the_page_shows_them():
 
 def test_what_is_left_adds_up():
     found = profile.summed(records(), 5.0) | {"wall": 4.0}
-    shown = page.left(found, {"plan": 1.5})
-    assert "| 2 interpreters and their imports | 2.3 |" in shown
+    once = {"needed": {"seconds": 1.0}, "start": {"snakemake": 0.5}}
+    shown = page.left(found, once | {"plan": 1.5})
+    assert "| imports, and interpreters that begin and end | 2.3 |" in shown
+    assert "| 1.5 |\n| Snakemake's plan and schedule | 2.0 |" in shown
     assert "| Snakemake's plan and schedule | 2.0 |" in shown
     assert "| **all** | **4.8** |" in shown
+
+
+def test_a_rebuild_is_measured_by_the_process_that_imports():
+    again = {"nothing to do": {"wall": 3.0}, "a figure": {"wall": 8.0}}
+    found = profile.summed(records(), 5.0) | {"wall": 2.4, "again": again}
+    shown = page.ratios({"seconds": 0.1, "wall": 2.0}, found)
+    assert "| a rebuild, CPU | 48 | 45 | does not hold |" in shown
+    assert "| a rebuild, wall over CPU | 0.5 | 0.6 | holds |" in shown
+    assert "| nothing to do, wall | 1.5 | 1.5 | holds |" in shown
+    assert "| a figure, wall | 4 | 2.5 | does not hold |" in shown
+    assert "| the largest process, MB | 90 | 300 | holds |" in shown

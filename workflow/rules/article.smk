@@ -27,6 +27,8 @@ rule article:
         "results/logs/article.log",
     benchmark:
         "results/benchmarks/article.tsv"
+    resources:
+        own_interpreter=1,  # typesetting takes much memory, and nothing that others import
     params:
         config=config,
         figures=TOLD_FIGURES,

@@ -70,7 +70,8 @@ class Executor(local.Executor):
 def _bears_a_fork(script):
     """A script in this environment; numerical libraries were told of one thread when loaded."""
     elsewhere = script.conda_env or script.container_img or script.env_modules or script.shadow_dir
-    return not elsewhere and script.threads == 1 and not script.resources.get("shell_exec")
+    own = script.resources.get("own_interpreter") or script.resources.get("shell_exec")
+    return not elsewhere and not own and script.threads == 1
 
 
 class Server:

@@ -38,8 +38,17 @@ def built(tmp_path_factory) -> Clone:
 SLOWER = ("hostile", "known_solutions", "second_solvers", "test_verify.py")
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """The slower evidence is asked for by name, so that the first test run stays short."""
+    """The slower evidence is asked for by name, so that the first test run stays short.
+
+    Tests that share a build, or what their module solves once, share a process.
+    """
     for item in items:
         if any(part in SLOWER for part in item.path.parts):
             item.add_marker(pytest.mark.evidence)
+        fixtures = item._fixtureinfo.name2fixturedefs
+        if "built" in fixtures:
+            item.add_marker(pytest.mark.xdist_group("built"))
+        elif any(each[-1].scope == "module" for each in fixtures.values()):
+            item.add_marker(pytest.mark.xdist_group(item.path.stem))

@@ -1,7 +1,6 @@
 """Coordinates put together from named and from spaced values."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -32,7 +31,6 @@ def test_output_times_of_any_case_are_apart(end, count, named):
     assert {float(each) for each in named} <= set(times.tolist())
 
 
-@pytest.mark.xdist_group("workflow")
 def test_no_coordinate_of_a_dataset_holds_a_value_twice(built):
     files = sorted((built.path / "results").rglob("*.nc"))
     assert len(files) > 20

@@ -23,7 +23,6 @@ def build(clone, design, *arguments):
     )  # fmt: skip
 
 
-@pytest.mark.xdist_group("workflow")
 def test_a_design_with_a_measured_gel_carries_its_errors(clone):
     run = build(clone, MINE)
     assert run.returncode == 0, run.stdout + run.stderr
@@ -42,7 +41,6 @@ def test_a_design_with_a_measured_gel_carries_its_errors(clone):
     assert "Nothing to be done" in again.stdout + again.stderr
 
 
-@pytest.mark.xdist_group("workflow")
 @pytest.mark.parametrize(
     ("change", "told"),
     [

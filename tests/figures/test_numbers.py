@@ -10,8 +10,6 @@ from gelpump import netcdf
 from gelpump.figures import style
 from gelpump.figures.style import Quantity
 
-pytestmark = pytest.mark.xdist_group("workflow")
-
 
 def told(built, figure):
     return pd.read_csv(built.path / f"results/figures/{figure}.csv", comment="#")

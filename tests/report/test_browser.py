@@ -9,7 +9,7 @@ import pytest
 
 from gelpump import netcdf
 
-pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.browser
 
 # long-running loads of lazy pictures are forced, as scrolling through the page would
 LOAD_ALL = """

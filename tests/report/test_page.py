@@ -9,8 +9,6 @@ import pytest
 from gelpump.report import markup
 from gelpump.report.notation import from_plain, plain
 
-pytestmark = pytest.mark.xdist_group("workflow")
-
 
 @pytest.fixture(scope="module")
 def text(page):

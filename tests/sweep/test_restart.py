@@ -69,7 +69,6 @@ def restarted(tmp_path_factory):
     return clone, kept, left
 
 
-@pytest.mark.xdist_group("sweep")
 def test_a_killed_sweep_loses_at_most_one_chunk(restarted):
     """On one core, one chunk is being solved; a finished one whose end was not noted may be too."""
     clone, kept, left = restarted
@@ -82,7 +81,6 @@ def test_a_killed_sweep_loses_at_most_one_chunk(restarted):
         assert sorted(made.design.values) == list(range(12))
 
 
-@pytest.mark.xdist_group("sweep")
 def test_what_a_sweep_leaves_follows_the_cf_conventions(restarted):
     clone, *_ = restarted
     files = [str(clone.path / SWEEP / f"{name}.nc") for name in ("designs", "sweep", "accuracy")]
@@ -90,7 +88,6 @@ def test_what_a_sweep_leaves_follows_the_cf_conventions(restarted):
     require_cf(files)
 
 
-@pytest.mark.xdist_group("sweep")
 def test_only_what_depends_on_a_change_is_solved_again(restarted):
     clone, *_ = restarted
     try:
@@ -107,7 +104,6 @@ def test_only_what_depends_on_a_change_is_solved_again(restarted):
         describe(clone)
 
 
-@pytest.mark.xdist_group("sweep")
 def test_a_sweep_that_is_too_inaccurate_fails(restarted):
     clone, *_ = restarted
     try:
@@ -121,7 +117,6 @@ def test_a_sweep_that_is_too_inaccurate_fails(restarted):
         describe(clone)
 
 
-@pytest.mark.xdist_group("sweep")
 def test_a_refused_sweep_starts_no_job(restarted):
     clone, *_ = restarted
     try:
@@ -135,7 +130,6 @@ def test_a_refused_sweep_starts_no_job(restarted):
         describe(clone)
 
 
-@pytest.mark.xdist_group("sweep")
 def test_a_sweep_cannot_have_the_name_of_a_rule(restarted):
     clone, *_ = restarted
     file = clone.path / "config/sweeps/chunk.yaml"

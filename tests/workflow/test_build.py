@@ -13,8 +13,6 @@ import numpy as np
 import pytest
 from conventions import require_cf
 
-pytestmark = pytest.mark.xdist_group("workflow")
-
 
 def digests(folder: Path, *patterns: str) -> dict[str, str]:
     return {

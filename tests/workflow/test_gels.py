@@ -1,11 +1,8 @@
 """Gels through the workflow: warnings where everyone sees them, refusals that delete nothing."""
 
 import pandas as pd
-import pytest
 
 from gelpump import netcdf
-
-pytestmark = pytest.mark.xdist_group("workflow")
 
 PNIPAM = """T (°C);phi
 20;0,0473

@@ -6,11 +6,8 @@ import re
 from xml.etree import ElementTree
 
 import numpy as np
-import pytest
 
 from gelpump.figures import style
-
-pytestmark = pytest.mark.xdist_group("workflow")
 
 LEAST = 7.0  # points
 # Matplotlib writes each text as a group of glyphs, scaled by its size in hundredths of a point

@@ -51,7 +51,6 @@ def values():
     return yaml.safe_load(text)["published"]
 
 
-@pytest.mark.xdist_group("workflow")
 def test_the_maps_are_those_of_the_workflow(workflow_jobs, values):
     rows = build_map.rows(workflow_jobs)
     scripts = {path.stem for path in (PROJECT / "workflow/scripts").glob("*.py")}
@@ -70,7 +69,6 @@ def test_the_maps_are_those_of_the_workflow(workflow_jobs, values):
         )
 
 
-@pytest.mark.xdist_group("workflow")
 def test_every_figure_leads_to_its_module_its_test_and_its_dataset(workflow_jobs):
     derived = (PROJECT / "docs/model.md").read_text(encoding="utf-8")
     made_by = {path: job for job in workflow_jobs.values() for path in job.outputs}
@@ -112,7 +110,6 @@ def test_labels_stand_in_the_docstring_of_their_module():
     assert build_map.labels("separation.sharp") == []
 
 
-@pytest.mark.xdist_group("workflow")
 def test_the_seconds_are_of_jobs_that_there_are(workflow_jobs):
     # jobs that are newer than the last measured build have none yet, and the map a dash
     assert set(SECONDS) <= set(workflow_jobs), "build, then `snakemake --cores 1 renew_map`"

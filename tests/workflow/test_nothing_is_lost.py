@@ -1,12 +1,9 @@
 """A job that fails leaves what an earlier build had made, and the next build makes it anew."""
 
-import pytest
-
 DATA = "results/data/materials_HHT.nc"
 TABLE = "results/tables/table2_gel_parameters.md"
 
 
-@pytest.mark.xdist_group("workflow")
 def test_a_failed_job_gives_back_what_was_there(clone):
     assert clone.snakemake(DATA, TABLE).returncode == 0
     before = {name: (clone.path / name).read_bytes() for name in (DATA, TABLE)}

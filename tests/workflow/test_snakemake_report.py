@@ -5,8 +5,6 @@ import re
 
 import pytest
 
-pytestmark = pytest.mark.xdist_group("workflow")
-
 LOADED = re.compile(r"<(?:script|img|iframe)[^>]*\ssrc=[\"']http|<link[^>]*\shref=[\"']http")
 
 

@@ -18,8 +18,6 @@ from gelpump.integrity import conventions
 from gelpump.integrity.examination import examine
 from gelpump.provenance import file_digest
 
-pytestmark = pytest.mark.xdist_group("workflow")
-
 REFERENCE = "workflow/reference/values.json"
 DATASET = "results/data/materials_ANB.nc"
 HERE = SimpleNamespace(path=Path())  # the working directory

@@ -79,5 +79,4 @@ def test_an_energy_that_agrees_with_calorimetry_is_said_to(solved, judged, hht):
 
 def test_without_its_dataset_what_rests_on_it_is_left_out(hht, anb):
     evidence = Evidence({}, {"HHT": hht, "ANB": anb}, {}, {}, {}, {})
-    found = {each["id"] for each in heat.statements.records(evidence)}
-    assert found == {"heat-printed-term", "heat-of-energies"}
+    assert not list(heat.statements.records(evidence))

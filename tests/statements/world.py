@@ -186,6 +186,26 @@ def pumps():
     return found.assign_coords(closure=closures, ell=tubes, tau=tau)
 
 
+def heated():
+    """A tube in a bath and one that is insulated; of two printed ones the second runs by itself."""
+    tau, wide = np.array([1.0, 2.0]), np.ones((2, 2))
+    limit = np.array([0.95, 0.7])
+    return xr.Dataset(
+        {
+            "front_over_diffusion": (("tube", "tau"), limit[:, None] * [1.1, 1.0005]),
+            "front_over_diffusion_uncertainty": (("tube", "tau"), 1e-6 * wide),
+            "front_limit": ("tube", limit),
+            "front_limit_large_Le": ("tube", [0.95, 0.8]),
+            "f_St": ("tube", [0.0, 0.5]),
+            "energy_balance_error": (("tube", "tau"), [[1e-12, 2e-12], [1e-13, 0.0]]),
+            "Z_C_printed": (("N", "tau_printed"), [np.sqrt(tau), tau]),
+            "Z_C_printed_uncertainty": (("N", "tau_printed"), 1e-9 * np.array([np.sqrt(tau), tau])),
+            "theta_printed": (("N", "tau_printed"), [[1.0, 3.0], [5.0, 17.0]]),
+        },
+        coords={"tau": tau, "tau_printed": tau, "N": [10.0, 30.0]},
+    )
+
+
 def separated(slower, phi):
     """A bead whose front travels inwards; ``slower`` times as long as the first."""
     front = np.array([1.0, 0.85, 0.6, 0.4, 0.15, 0.0])
@@ -277,12 +297,12 @@ def truth():
     )
     closures = ["printed", "conservative", "balanced"]
     return {
-        "waves": waves.assign_coords(ell=ell, Pe=Pe, M=[1.0, 3.0]),
-        "pulses": pulses.assign_coords(ell=ell, T=T),
-        "slenderness": slender.assign_coords(
+        "truth/waves": waves.assign_coords(ell=ell, Pe=Pe, M=[1.0, 3.0]),
+        "truth/pulses": pulses.assign_coords(ell=ell, T=T),
+        "truth/slenderness": slender.assign_coords(
             closure=closures, ell=ell, T=T, surface=["conservative", "balanced"]
         ),
-        "verification": verification,
+        "truth/verification": verification,
     }
 
 
@@ -325,6 +345,7 @@ _WORLD = Evidence(
         **separation(),
         **truth(),
         "pump_balance": pumps(),
+        "tube_heat": heated(),
     },
     gels=GELS,
     cases={

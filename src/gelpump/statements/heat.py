@@ -113,6 +113,8 @@ def printed_front(e):
 def printed_term(e):
     """What stands beside Pi in the term with Dphi/Dt, over rho c T (water's rho c): 1 as printed;
     from the energies, with the water's enthalpy in the flux of energy, U_v (HHT, ANB)."""
+    if HEAT not in e.data:
+        return None
     found = []
     for name in ("HHT", "ANB"):
         gel, T = e.gels[name], HEATED[0]
@@ -130,6 +132,8 @@ def printed_term(e):
 def heat_of_energies(e):
     """Latent heat of the collapse from 304 to 308 K by the energies, in kJ per mole of repeat units
     of PNIPAM (HHT, ANB); by calorimetry 5 to 6.5."""
+    if HEAT not in e.data:
+        return None
     found = []
     for name in ("HHT", "ANB"):
         gel = e.gels[name]

@@ -17,9 +17,11 @@ from gelpump.design import dataset, description, device, heat, inverse, units, v
 from gelpump.design.gel_errors import gel_errors, gel_note
 from gelpump.design.result import AMBER, GREEN, RED
 from gelpump.materials import measured
+from gelpump.tube.deswelling import deswelling_time
 from gelpump.tube.heat import FRONT_CONSTANT
 from gelpump.tube.stefan import Surrounding, front_constant
 from gelpump.tube.tubes import Tubes
+from gelpump.tube.wall import deswelling_times
 
 PROJECT = Path(__file__).resolve().parents[2]
 GELS = yaml.safe_load((PROJECT / "config/config.yaml").read_text())["gels"]
@@ -188,12 +190,18 @@ def test_the_inverse_is_the_forward_solved_again(name, lights):
     wanted = found.wanted["response_time"].magnitude
     now = device.response_time(found)
     a_0, a_1 = found.si("a_0"), found.si("a_1")
+    slower = device.slower(found)
+
+    def time(**changed):
+        ell = changed.get("a_0", a_0) / changed.get("a_1", a_1)
+        return device.response_time(found, **changed) * slower(ell)
+
     forward = {
-        "wall": lambda x: device.response_time(found, a_0=a_1 - x),
-        "a_1": lambda x: device.response_time(found, a_1=x),
-        "size": lambda x: device.response_time(found, a_0=x * a_0 / a_1, a_1=x),
-        "permeability": lambda x: device.response_time(found, permeability=x),
-        "osmotic_modulus": lambda x: device.response_time(found, osmotic_modulus=x),
+        "wall": lambda x: time(a_0=a_1 - x),
+        "a_1": lambda x: time(a_1=x),
+        "size": lambda x: time(a_0=x * a_0 / a_1, a_1=x),
+        "permeability": lambda x: time(permeability=x),
+        "osmotic_modulus": lambda x: time(osmotic_modulus=x),
     }
     ranges = inverse.ranges(found, wanted, now, lights)
     assert {each.key for each in ranges} == set(forward)
@@ -205,6 +213,20 @@ def test_the_inverse_is_the_forward_solved_again(name, lights):
         assert forward[each.key](by_time[0]) == pytest.approx(wanted, rel=1e-9)
         for inside in np.linspace(each.low, each.high, 7):
             assert forward[each.key](inside) <= wanted * (1 + 1e-9)
+
+
+def test_times_are_those_of_walls_resolved_in_r():
+    """Interpolated over ell, and the longer of the two surfaces'."""
+    found = design("microtube")
+    slower = device.slower(found)
+    ells = np.array([0.05, 0.3, 0.5, 0.8, 0.97])
+    tubes = Tubes(ells, **found.material.numbers)
+    times, error = deswelling_times(tubes)
+    longer = times[:, 0].max(axis=0) / deswelling_time(tubes)
+    doubt = (error[:, 0] / times[:, 0]).max()
+    np.testing.assert_allclose([slower(ell) for ell in ells], longer, rtol=doubt)
+    assert (longer > 1.6).all()
+    assert slower(0.001) == slower(device.LOW)
 
 
 def test_a_range_ends_where_its_light_changes():

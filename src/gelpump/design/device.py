@@ -10,6 +10,8 @@ L the heated length, t_pore = mu_l L^2/(k Pi_00) the unit of tau (eqn:nondimensi
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +23,7 @@ from gelpump.design.result import Result
 if TYPE_CHECKING:
     from gelpump.tube.tubes import Tubes
 
+LOW, HIGH, ELLS = 0.02, 0.99, 8  # ell of the walls between which `slower` is interpolated
 QUADRATURE = 1e-10  # relative error of t_99, as tested
 
 
@@ -61,6 +64,27 @@ def response_time(design: Design, **changed: float) -> float:
     values = {key: design.si(key) for key in ("a_0", "a_1", "permeability", "viscosity")}
     values |= {"osmotic_modulus": design.material.Pi_00} | changed
     return float(response_time(**values, **design.material.numbers))
+
+
+def slower(design: Design) -> Callable[[float], float]:
+    """How many times as long as `response_time` the wall takes that is resolved in r, by its ell.
+
+    `gelpump.tube.wall.slower`, interpolated; outside LOW to HIGH as at the nearer of the two.
+    """
+    of = _slower(*design.material.numbers.items())
+    return lambda ell: float(of(np.clip(ell, LOW, HIGH)))
+
+
+@cache
+def _slower(*numbers):
+    from scipy.interpolate import CubicSpline
+
+    from gelpump.tube import wall
+    from gelpump.tube.tubes import Tubes
+
+    x = np.linspace(np.log(LOW), np.log(HIGH), ELLS)
+    spline = CubicSpline(x, wall.slower(Tubes(np.exp(x), **dict(numbers))))
+    return lambda ell: spline(np.log(ell))
 
 
 def material_results(design: Design) -> list[Result]:

@@ -1,8 +1,9 @@
 """The inverse question: which designs respond within a given time, one parameter at a time.
 
-By scaling, exactly, with I the quadrature of t_99 (section 3.4), which holds the gel only:
+By scaling, exactly, with I the quadrature of t_99 (section 3.4), which holds the gel only, and r
+how many times as long a wall takes that is resolved in r (`device.slower`), which holds ell too:
 
-    tube:  t_99 = mu_l (a_1 - a_0)^2 I/(16 k Pi_00)         bead:  t_99 ~ mu_l a^2/(k Pi_00)
+    tube:  t_99 = r mu_l (a_1 - a_0)^2 I/(16 k Pi_00)       bead:  t_99 ~ mu_l a^2/(k Pi_00)
 
 so that the longest time allowed bounds the thickness from above and k and Pi_00 (the moduli keeping
 their ratios) from below. The lights that need no solution bound from the other side: slenderness,
@@ -16,9 +17,8 @@ for amber at least, or for green.
 import math
 from dataclasses import dataclass, replace
 
-from gelpump.design import units
+from gelpump.design import device, units
 from gelpump.design.description import Design
-from gelpump.design.device import lewis_number
 from gelpump.design.heat import HEAT
 from gelpump.design.result import AMBER, GREEN, LIGHTS
 from gelpump.design.validity import (
@@ -74,14 +74,15 @@ class Range:
 
 
 def ranges(design: Design, wanted: float, now: float, lights: str = AMBER) -> list[Range]:
-    """The range of each parameter for which t_99 <= ``wanted``; ``now`` is t_99 as designed (s).
+    """The range of each parameter for which t_99 <= ``wanted``; ``now`` is t_99 as designed (s), of
+    a tube as section 3.4 has it.
 
     ValueError unless both times are positive and ``lights`` is green or amber.
     """
     if not (wanted > 0 and now > 0 and lights in (GREEN, AMBER)):
         raise ValueError(f"wanted = {wanted!r}, now = {now!r}, lights = {lights!r}: not allowed")
     limit = {c: getattr(c, lights) for c in (SLENDER, LEWIS, COUPLING, CONTINUUM)}
-    faster, k, Le = wanted / now, design.si("permeability"), lewis_number(design)
+    faster, k, Le = wanted / now, design.si("permeability"), device.lewis_number(design)
     time, pore = "response time", math.sqrt(k)
     Pi_00 = design.material.Pi_00
     if design.kind == "bead":
@@ -97,15 +98,20 @@ def ranges(design: Design, wanted: float, now: float, lights: str = AMBER) -> li
         a_0, a_1, L = (design.si(key) for key in ("a_0", "a_1", "heated_length"))
         wall = a_1 - a_0
         thickness = wall
-        thickest, thinnest = wall * math.sqrt(faster), limit[CONTINUUM] * pore
+        slower = device.slower(design)
+        faster /= slower(a_0 / a_1)
+        thinnest = limit[CONTINUUM] * pore
         widest = L * math.sqrt(limit[SLENDER])
         narrowest = pore / math.sqrt(limit[COUPLING])
         found = [
             _range("wall", "thickness of the wall, same outer radius", "m", wall,
-                   [(thinnest, CONTINUUM.text)], [(thickest, time), (a_1, "no lumen is left")]),
+                   [(thinnest, CONTINUUM.text)],
+                   [(_thickest(wall, faster, slower, lambda wall: 1 - wall / a_1, a_1), time),
+                    (a_1, "no lumen is left")]),
             _range("a_1", "outer radius, same inner radius", "m", a_1,
                    [(a_0 + thinnest, CONTINUUM.text), (narrowest, COUPLING.text)],
-                   [(a_0 + thickest, time), (widest, SLENDER.text)]),
+                   [(a_0 + _thickest(wall, faster, slower, lambda wall: a_0 / (a_0 + wall)), time),
+                    (widest, SLENDER.text)]),
             _range("size", "outer radius, same ratio of the radii", "m", a_1,
                    [(a_1 * thinnest / wall, CONTINUUM.text), (narrowest, COUPLING.text)],
                    [(a_1 * math.sqrt(faster), time), (widest, SLENDER.text)]),
@@ -123,6 +129,19 @@ def ranges(design: Design, wanted: float, now: float, lights: str = AMBER) -> li
     ]  # fmt: skip
     seen, odd = before_solving(design), set(unusual(design))
     return [_blocked(each, seen, lights, odd) for each in found]
+
+
+def _thickest(wall, faster, slower, ell, limit=math.inf) -> float:
+    """The thickness x below ``limit`` with x^2 r(ell(x)) = wall^2 r(ell(wall)) faster."""
+    from scipy.optimize import brentq
+
+    allowed = wall**2 * slower(ell(wall)) * faster
+
+    def excess(x):
+        return x**2 * slower(ell(x)) / allowed - 1
+
+    most = min(limit * (1 - 1e-9), 4 * wall * math.sqrt(faster))
+    return limit if excess(most) < 0 else brentq(excess, 0, most, xtol=1e-12 * wall, rtol=1e-12)
 
 
 def _blocked(each, seen, lights, odd) -> Range:

@@ -73,9 +73,9 @@ def notes(data: xr.Dataset) -> list[str]:
         if data.attrs["kind"] == "tube":
             said += (
                 "; heat, closeness and the lumen's pressure and flow are judged by building the "
-                "change. Their time is that printed: resolved in r, the wall takes "
-                f"{_slower(data, 'resolved')} times as long ({_slower(data, 'forceless')} times "
-                "if no force acts on its surfaces)"
+                "change. Their time is that of the wall resolved in r, the longer of the two told: "
+                f"with Φ = Φ₀ on its surfaces {_slower(data, 'resolved')} times that printed, with "
+                f"no force on them {_slower(data, 'forceless')} times"
             )
         found.append(f"{said}.")
     return found

@@ -37,6 +37,7 @@ from scipy.special import j0, y0
 from gelpump.bdf import MAX_TRIALS, NotConverged, integrate
 from gelpump.finite_volume import NewtonSweep
 from gelpump.tube.closure import WATER, named
+from gelpump.tube.deswelling import deswelling_time
 from gelpump.tube.tubes import Tubes
 
 SURFACES = WATER
@@ -182,6 +183,14 @@ def deswelling_times(tubes: Tubes) -> tuple[np.ndarray, np.ndarray]:
     )
     added = (fine - coarse) / (COARSER[0] ** 2 - 1)
     return fine + added, DOUBT * np.abs(added)
+
+
+def slower(tubes: Tubes) -> np.ndarray:
+    """How many times as long as by eqn:tube_model a wall resolved in r takes on its midline.
+
+    The longer of the times of SURFACES.
+    """
+    return deswelling_times(tubes)[0][:, 0].max(axis=0) / deswelling_time(tubes)
 
 
 def closure_time(tubes: Tubes, closure: str) -> np.ndarray:

@@ -80,3 +80,14 @@ def test_an_energy_that_agrees_with_calorimetry_is_said_to(solved, judged, hht):
 def test_without_its_dataset_what_rests_on_it_is_left_out(hht, anb):
     evidence = Evidence({}, {"HHT": hht, "ANB": anb}, {}, {}, {}, {})
     assert not list(heat.statements.records(evidence))
+
+
+def test_the_printed_term_is_what_departing_water_leaves_behind(hht, anb, monkeypatch):
+    evidence = Evidence({}, {"HHT": hht, "ANB": anb}, {}, {}, {}, {})
+    (found,) = heat.printed.records(evidence)
+    assert (found["status"], found["computed"]) == ("misprint", pytest.approx(0, abs=1e-12))
+    assert found["measure"] == pytest.approx(1, rel=1e-12)
+    behind = heat.warming(0.0)
+    monkeypatch.setattr(heat, "warming", lambda carried: behind)
+    (found,) = heat.printed.records(evidence)
+    assert found["status"] == "reproduced"

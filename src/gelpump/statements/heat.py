@@ -1,16 +1,16 @@
-"""Heat that the collapse consumes, and the printed heat equation: beyond the paper.
+"""Heat that the collapse consumes, and the printed heat equation.
 
-What they rest on is derived in docs/heat.md.
+`printed` is of the paper, `statements` go beyond it; what they rest on is derived in docs/heat.md.
 """
 
 import numpy as np
 
 from gelpump.materials.latent_heat import energy_pressure, latent_heat
-from gelpump.statements.statement import Collection, Computed, holds
+from gelpump.statements.statement import LINE, Collection, Computed, holds
 from gelpump.tube.heat import FRONT_CONSTANT
 from gelpump.tube.stefan import tolerated
 
-statements = Collection()
+printed, statements = Collection(), Collection()
 states = statements.states
 HEAT, DOCS = "tube_heat", "docs/heat.md"
 CALORIMETRY = {"value": 5.75, "resolution": 0.75}  # kJ per mol of repeat units of PNIPAM: 5 to 6.5
@@ -144,4 +144,34 @@ def heat_of_energies(e):
         np.abs(found) * 1e-9,
         follows="fitted to swelling they know no calorimeter: for use at constant temperature",
         paper=CALORIMETRY,
+    )
+
+
+def warming(carried: float, parcels: int = 1000) -> float:
+    """d ln T/d ln phi of an insulated element of gel that shrinks to half its volume, parcel by
+    parcel of water, which takes the share ``carried`` of its thermal energy along.
+
+    Energies are those of rho c T alone: no heat of mixing, no work of Pi.
+    """
+    T, J = 300.0, 20.0
+    parcel = J / 2 / parcels
+    for _ in range(parcels):
+        T, J = T * (J - carried * parcel) / (J - parcel), J - parcel
+    return float(np.log(T / 300.0) / np.log(20.0 / J))
+
+
+@printed.states(
+    "printed-heat-term", "eqn:lens_heat_equation", "gelpump.statements.heat.warming", LINE
+)
+def printed_heat_term(e):
+    """Coefficient of T in the term with Dphi/Dt of eqn:lens_heat_equation, 1 as printed: that of an
+    insulated element of gel whose departing water takes its thermal energy along."""
+    return Computed(
+        warming(1.0),
+        1e-12,
+        warming(0.0),
+        "if the water left it behind (energy flux Q + mu J):",
+        "the term goes if the flux of energy holds the water's enthalpy; with it a gel that "
+        "collapses to twice its polymer fraction would double its absolute temperature",
+        {"value": 1.0, "resolution": 0.0},
     )

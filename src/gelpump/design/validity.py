@@ -116,14 +116,15 @@ def fitted(fit: Fit) -> Light:
 
 
 def smallest_diffusivity(design: Design, temperature: float | None = None) -> tuple[float, float]:
-    """Least D over that of the swollen gel on the way to the collapsed one, and where (phi)."""
+    """Least D over that of the swollen gel, less its sign, on the way to the collapsed one, and
+    where (phi)."""
     material, gel = design.material, design.material.gel
     low = material.own_start
     phi = np.linspace(low, low * material.Phi_inf, 2001)
     T = material.hot if temperature is None else temperature
     D = gel.diffusivity(phi, T)
     least = int(D.argmin())
-    return float(D[least] / gel.diffusivity(low, T)), float(phi[least])
+    return float(D[least] / abs(gel.diffusivity(low, T))), float(phi[least])
 
 
 def own_response_time(design: Design) -> float | None:
@@ -227,11 +228,16 @@ def after_solving(design: Design, data: xr.Dataset) -> list[Light]:
     peak = max(
         float(np.abs(data[f"lumen_velocity_{form}"]).max()) for form in ("printed", "conserving")
     )
+    return flow_lights(design, share, float(data.front_polymer_ratio[-1]), peak)
+
+
+def flow_lights(design: Design, share: float, front: float, peak: float) -> list[Light]:
+    """Lights of a pulse: share of the heated length out of equilibrium, Phi_1 at the front, and the
+    largest velocity in the lumen (m/s)."""
     a_0, L, mu = design.si("a_0"), design.si("heated_length"), design.si("viscosity")
     pressure = 8 * mu * peak * L / a_0**2
     speed = f"{told(1e3 * peak, 2)} mm/s"
     reynolds = design.si("density") * peak * a_0 / mu * a_0 / L
-    front = float(data.front_polymer_ratio[-1])
     Phi_inf = design.material.Phi_inf
     return _sorted(
         [

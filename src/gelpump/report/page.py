@@ -13,7 +13,12 @@ from gelpump.report import markup, notation
 from gelpump.report.content import Content
 
 TEMPLATES = Path(__file__).parent / "templates"
-SCRIPTS = ("theme", "tables", "arrays", "plot", "explorer", "tube", "bead", "gel", "start")
+ENGINE = ("wave", "pulse", "material", "device")  # of the designer, without any page
+SCRIPTS = (
+    *("theme", "tables", "arrays", "plot", "explorer", "tube", "bead", "gel"),
+    *ENGINE,
+    "start",
+)
 SHADES = 64
 STATUS_MEANING = {
     "reproduced": "within the printed digits and our uncertainty",

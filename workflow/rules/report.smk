@@ -6,6 +6,8 @@ TOLD_TABLES = {Path(file).stem: told(Path(file).stem) for file in TABLES if file
 LINEAR_IN_T = [name for name in ENERGY_GELS if config["gels"][name]["model"] == "energy-based"]
 PAGE_TEMPLATES = sorted(map(str, Path("src/gelpump/report/templates").glob("*.*")))
 
+LITERATURE = sorted(map(str, Path("config/gels").glob("*.yaml")))
+
 
 rule report_page:
     input:
@@ -23,6 +25,8 @@ rule report_page:
         drawings=[*FIGURES, *TABLES],
         captions=[told["caption"] for told in [*TOLD_FIGURES.values(), *TOLD_TABLES.values()]],
         templates=PAGE_TEMPLATES,
+        designs=[f"config/designs/{name}.yaml" for name in ("microtube", "millitube")],
+        literature=LITERATURE,
         told=["CITATION.cff", "workflow/reference/seconds.json"],
         src=modules("report_page"),
     output:

@@ -6,13 +6,21 @@ with job(snakemake) as provenance:
     from pathlib import Path
 
     from gelpump import netcdf
+    from gelpump.design import read
     from gelpump.report import embedded, page
     from gelpump.report.content import gather
+    from gelpump.report.designer import designer
     from gelpump.text import write_text
 
     params, files = snakemake.params, snakemake.input
     content = gather(params.config, params.figures, params.tables, provenance.inputs)
     cases = params.config["beads"]
+    literature = {
+        name: (block, file)
+        for file in files.literature
+        for name, block in read(file)["gels"].items()
+        if name not in params.config["gels"]
+    }
     explorers = {
         "tube": embedded.tubes(
             netcdf.read(files.pulse), netcdf.read(files.fit), netcdf.read(files.conserving)
@@ -32,6 +40,11 @@ with job(snakemake) as provenance:
             Path(file).stem.removeprefix("materials_"): embedded.gel(netcdf.read(file))
             for file in files.materials
         },
+        "design": designer(
+            params.config["gels"] | {name: block for name, (block, _) in literature.items()},
+            {Path(file).stem: read(file) for file in files.designs},
+            {name: file for name, (_, file) in literature.items()},
+        ),
     }
     output = Path(snakemake.output[0])
     write_text(page.render(content, explorers, output.parent), output)

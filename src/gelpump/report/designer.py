@@ -8,23 +8,50 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from gelpump.design import device, late, units, validity
-from gelpump.design.description import Design, checked, schema
+from gelpump.design.description import Design, checked
 from gelpump.design.solve_tube import TIMES
 from gelpump.materials import EnergyBasedGel, FloryRehnerGel, PiecewiseLinearGel, from_config
 from gelpump.tube import late_pump, wave
 from gelpump.tube.heat import FRONT_CONSTANT
 
 
-def designer(gels: Mapping[str, Any], designs: Mapping[str, Any]) -> dict[str, Any]:
+FIELDS = (  # key, text, unit of the file, of the page, its size in SI, ends of the slider
+    ("a_0", "inner radius, swollen", "um", "µm", 1e-6, 1, 5000),
+    ("a_1", "outer radius, swollen", "um", "µm", 1e-6, 1, 5000),
+    ("heated_length", "heated length", "mm", "mm", 1e-3, 0.01, 1000),
+    ("osmotic_modulus", "osmotic modulus, swollen", "kPa", "kPa", 1e3, 0.01, 1e4),
+    ("osmotic_modulus_hot", "osmotic modulus, collapsed", "kPa", "kPa", 1e3, 0.01, 1e4),
+    ("shear_modulus", "shear modulus", "kPa", "kPa", 1e3, 0.01, 1e4),
+    ("polymer_fraction", "polymer fraction, swollen", "", "", 1.0, 0.002, 0.5),
+    ("polymer_fraction_hot", "polymer fraction, collapsed", "", "", 1.0, 0.01, 0.9),
+    ("permeability", "permeability", "m^2", "m²", 1.0, 1e-20, 1e-13),
+    ("viscosity", "viscosity of the liquid", "mPa*s", "mPa s", 1e-3, 0.1, 100),
+    ("thermal_diffusivity", "thermal diffusivity", "mm^2/s", "mm²/s", 1e-6, 0.03, 1),
+    ("critical_temperature", "critical temperature", "K", "K", 1.0, 280, 350),
+    ("heating_step", "heating step ΔT, to either side", "K", "K", 1.0, 0.05, 30),
+    ("density", "density of the liquid", "kg/m^3", "kg/m³", 1.0, 500, 2000),
+    ("wanted_time", "respond within", "s", "s", 1.0, 1e-3, 1e4),
+    ("wanted_volume", "pump at least", "nL", "nL", 1e-12, 1e-4, 1e4),
+    ("wanted_wall", "wall at least", "um", "µm", 1e-6, 1, 2000),
+)
+LINEAR = ("critical_temperature", "density")
+WANTED = {"wanted_time": 0.05, "wanted_volume": 5, "wanted_wall": 20}  # of the first design
+EMPTY: Mapping[str, str] = {}
+MODELS = ("energy-based", "piecewise-linear", "flory-rehner")
+
+
+def designer(
+    gels: Mapping[str, Any], designs: Mapping[str, Any], files: Mapping[str, str] = EMPTY
+) -> dict[str, Any]:
     """gels: blocks of the configuration; designs: blocks of tubes by name, of which the first is
-    shown at the start."""
+    shown at the start; files: where gels stand that are not in the configuration."""
     found = {name: checked(name, block, gels) for name, block in designs.items()}
-    told = {name: gel(from_config(name, block)) for name, block in gels.items()}
+    formulae = {name: block for name, block in gels.items() if block.get("model") in MODELS}
+    told = {name: gel(from_config(name, block)) for name, block in formulae.items()}
     return {
-        "gels": told,
+        "gels": {name: each | {"file": files.get(name)} for name, each in told.items()},
+        "fields": [_field(*each) for each in FIELDS],
         "designs": {name: _given(each, designs[name]) for name, each in found.items()},
         "quantities": _quantities(next(iter(found.values()))),
         "criteria": {
@@ -75,6 +102,20 @@ def gel(found: Any) -> dict[str, Any]:
         keys = ("constant", "slope", "inverse", "kappa", "charge", "salt", "molecule_volume")
         told |= {key: getattr(found, key) for key in keys}
     return told
+
+
+def _field(key, text, unit, shown, factor, low, high) -> dict[str, Any]:
+    return {
+        "key": key,
+        "text": text,
+        "unit": unit,
+        "shown": shown,
+        "factor": factor,
+        "low": low,
+        "high": high,
+        "linear": key in LINEAR,
+        "start": WANTED.get(key),
+    }
 
 
 def _given(design: Design, block: Mapping[str, Any]) -> dict[str, Any]:

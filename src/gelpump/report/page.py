@@ -4,19 +4,23 @@ Templates, styles and scripts are the files of ``templates``; everything that va
 """
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gelpump.figures import style
 from gelpump.report import markup, notation
 from gelpump.report.content import Content
+
+if TYPE_CHECKING:
+    import jinja2
 
 TEMPLATES = Path(__file__).parent / "templates"
 ENGINE = ("wave", "pulse", "material", "device")  # of the designer, without any page
 SCRIPTS = (
     *("theme", "tables", "arrays", "plot", "explorer", "tube", "bead", "gel"),
     *ENGINE,
+    *("scan", "designer"),
     "start",
 )
 SHADES = 64
@@ -47,18 +51,31 @@ def colours() -> dict[str, Any]:
 def render(content: Content, explorers: Mapping[str, Any], folder: Path) -> str:
     """The page, for a file in ``folder``, to which its links are relative.
 
-    explorers: "tube", "beads" and "gels", as of ``embedded``.
+    explorers: "tube", "beads" and "gels", as of ``embedded``; "design", as of ``designer``.
     """
+    return environment(folder).get_template("page.html").render(
+        content=content,
+        status_meaning=STATUS_MEANING,
+        explorers=explorers,
+        designer=explorers["design"],
+        data=as_it_is(embed({"colours": colours(), **explorers})),
+        script=as_it_is(scripts(SCRIPTS)),
+        style=as_it_is((TEMPLATES / "page.css").read_text(encoding="utf-8")),
+    )
+
+
+def environment(folder: Path) -> "jinja2.Environment":
+    """Templates with the filters that turn content into markup, for a file in ``folder``."""
     import jinja2
 
-    environment = jinja2.Environment(
+    found = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {
+    found.filters |= {
         "html": lambda text: as_it_is(markup.html(text)),
         "caption": lambda paragraphs: as_it_is(markup.caption(paragraphs)),
         "math": lambda latex: as_it_is(markup.mathml(latex)),
@@ -72,16 +89,12 @@ def render(content: Content, explorers: Mapping[str, Any], folder: Path) -> str:
         "source": source,
         "plain_text": lambda text: as_it_is(markup.html(notation.from_plain(text))),
     }
-    return environment.get_template("page.html").render(
-        content=content,
-        status_meaning=STATUS_MEANING,
-        explorers=explorers,
-        data=as_it_is(embed({"colours": colours(), **explorers})),
-        script=as_it_is(
-            "\n".join((TEMPLATES / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS)
-        ),
-        style=as_it_is((TEMPLATES / "page.css").read_text(encoding="utf-8")),
-    )
+    return found
+
+
+def scripts(names: Iterable[str]) -> str:
+    """Scripts of the page, one after the other."""
+    return "\n".join((TEMPLATES / f"{name}.js").read_text(encoding="utf-8") for name in names)
 
 
 def as_it_is(text: str):

@@ -35,6 +35,7 @@ from gelpump.tube.deswelling import deswelling_time
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.tubes import Tubes
 from gelpump.tube.wall_flow import lumen_share, source_coefficient
+from gelpump.tube.wave_branch import meeting
 
 NODES, FEWER_NODES = 12, 8  # of the printed volume, in the root of time
 MISMATCH = 1e-3  # of the fluxes at the front, relative: more, and no front was found
@@ -142,17 +143,14 @@ def shape(M, Pi_ratio, Phi_inf, c) -> tuple[NDArray, NDArray, NDArray, NDArray, 
     """Stretch and flux at the front of conserving waves, and by how much the fluxes of its two
     sides disagree there; I_1 and I_3 behind it, and ahead."""
     given = [np.asarray(each, float) for each in np.broadcast_arrays(M, Pi_ratio, Phi_inf, c)]
-    M, Pi_ratio, Phi_inf, c = (each.ravel() for each in given)
-    rest = np.cbrt(1 / Phi_inf)
-    hot = wave._Branch(rest, Pi_ratio / Phi_inf, 4 * M / 3, c, True)
-    cold = wave._Branch(np.ones_like(rest), np.ones_like(rest), 4 * M / 3, c, True)
-    front = wave._front(hot, cold)
+    sides = wave.branches(*(each.ravel() for each in given), "conservative")
+    front = meeting(*sides)
     fine, coarse = (
-        np.array([_amounts(each, front, n) for each in (hot, cold)])
+        np.array([_amounts(each, front, n) for each in sides])
         for n in (wave.INTERVALS, wave.INTERVALS // 2)
     )
     found = fine + (fine - coarse) / 3
-    flux, other = (each.end(front, wave.INTERVALS)[0] for each in (hot, cold))
+    flux, other = (each.end(front, wave.INTERVALS)[0] for each in sides)
     mismatch = np.abs(flux - other) / np.abs(flux)
     like = given[0].shape
     return *(each.reshape(like) for each in (front, flux, mismatch)), *found.reshape(2, 2, *like)
@@ -161,10 +159,10 @@ def shape(M, Pi_ratio, Phi_inf, c) -> tuple[NDArray, NDArray, NDArray, NDArray, 
 def _amounts(branch, front, intervals):
     """I_1 and I_3 of one side on one mesh; dxi = lambda^2 K dlambda/j."""
     stretch, flux = branch.solve(front, intervals)
-    distance, step = np.abs(stretch - branch.rest), np.abs(np.diff(stretch))
+    distance, step = np.abs(stretch - branch.rest), np.abs(np.diff(stretch, axis=0))
     slope = np.empty_like(flux)
-    slope[:, 1:] = flux[:, 1:] / distance[:, 1:]
-    slope[:, :1] = branch.slope_at_rest(np.sign(front[:, np.newaxis] - branch.rest))
+    slope[1:] = flux[1:] / distance[1:]
+    slope[0] = branch.slope_at_rest(np.sign(front - branch.rest))
     first = branch.rho(stretch) / (stretch**2 * slope)
     third = first * (stretch**2 + stretch * branch.rest + branch.rest**2)
-    return [((each[:, 1:] + each[:, :-1]) / 2 * step).sum(axis=1) for each in (first, third)]
+    return [((each[1:] + each[:-1]) / 2 * step).sum(axis=0) for each in (first, third)]

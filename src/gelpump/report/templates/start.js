@@ -6,3 +6,4 @@ startContents();
 new TubeExplorer();
 new BeadExplorer();
 new GelExplorer();
+new Designer();

@@ -5,6 +5,30 @@ const TUBE_CELLS = ["Phi1", "U_outer", "V_g", "V"];
 
 const nearest = (values, value) => values.reduce((best, each, i) => (Math.abs(each - value) < Math.abs(values[best] - value) ? i : best), 0);
 
+// A tube's wall between its swollen radii, coloured by Phi_1 at Z, and as it was when swollen.
+function drawWall(context, at, { Z, Phi1, Phi_inf, ends, radii }) {
+  const xs = [ends[0], ...Z, ends[1]];
+  const Phi = [Phi1[0], ...Phi1, Phi1[Phi1.length - 1]];
+  const shrunk = Phi.map((value) => Math.cbrt(1 / value));
+  const [outer, inner] = radii;
+  for (const side of [1, -1]) {
+    for (let i = 0; i + 1 < xs.length; i++) {
+      const [left, right] = [at.x(xs[i]), at.x(xs[i + 1]) + 0.6];
+      context.fillStyle = shade(((Phi[i] + Phi[i + 1]) / 2 - 1) / (Phi_inf - 1));
+      context.beginPath();
+      context.moveTo(left, at.y(side * outer * shrunk[i]));
+      context.lineTo(right, at.y(side * outer * shrunk[i + 1]));
+      context.lineTo(right, at.y(side * inner * shrunk[i + 1]));
+      context.lineTo(left, at.y(side * inner * shrunk[i]));
+      context.fill();
+    }
+    for (const edge of radii) {
+      line(context, at, xs, shrunk.map((value) => side * edge * value), { colour: themed("ink"), width: 1.1 });
+      line(context, at, ends, [side * edge, side * edge], { colour: themed("soft"), width: 1, dash: [1.5, 4] });
+    }
+  }
+}
+
 class TubeExplorer extends Explorer {
   constructor() {
     super("explore-tube");
@@ -106,32 +130,11 @@ class TubeExplorer extends Explorer {
     });
     const Z = this.now("Z");
     const Phi1 = this.now("Phi1");
-    const count = Z.length;
     const Phi_inf = this.tubes.Phi_inf[this.ell];
     const radius = (i) => Math.cbrt(1 / Phi1[i]);
     clipped(context, at.box, () => {
-      const [start, end] = [Math.min(0, this.range()[0]), Math.max(this.end, this.range()[1])];
-      const edge = (i) => (i < 0 ? start : i >= count ? end : Z[i]);
-      const cell = (i) => Math.max(0, Math.min(count - 1, i));
-      for (const side of [1, -1]) {
-        for (let i = -1; i < count; i++) {
-          const [left, right] = [at.x(edge(i)), at.x(edge(i + 1))];
-          const [a, b] = [radius(cell(i)), radius(cell(i + 1))];
-          context.fillStyle = shade(((Phi1[cell(i)] + Phi1[cell(i + 1)]) / 2 - 1) / (Phi_inf - 1));
-          context.beginPath();
-          context.moveTo(left, at.y(side * a));
-          context.lineTo(right + 0.6, at.y(side * b));
-          context.lineTo(right + 0.6, at.y(side * b * ell));
-          context.lineTo(left, at.y(side * a * ell));
-          context.fill();
-        }
-        for (const inner of [1, ell]) {
-          const xs = [start, ...Z, end];
-          const ys = [radius(0), ...Array.from(Z, (_, i) => radius(i)), radius(count - 1)].map((r) => side * inner * r);
-          line(context, at, xs, ys, { colour: themed("ink"), width: 1.1 });
-          line(context, at, [start, end], [side * inner, side * inner], { colour: themed("soft"), width: 1, dash: [1.5, 4] });
-        }
-      }
+      const ends = [Math.min(0, this.range()[0]), Math.max(this.end, this.range()[1])];
+      drawWall(context, at, { Z, Phi1, Phi_inf, ends, radii: [1, ell] });
       const front = at.x(this.front());
       line(context, at, [this.front(), this.front()], [-1.14, 1.14], { colour: data.colours.nonlinear, width: 1.4, dash: [6, 4] });
       words(context, "front", front + 5, at.box.top + 9, { colour: themed("ink") });

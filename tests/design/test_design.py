@@ -66,6 +66,16 @@ def hand_gel(A0, A1, B0, B1, Omega, T, phi, **_):
     return phi * slope, Pi(phi)
 
 
+def test_a_gel_that_is_unstable_where_it_starts_is_red():
+    """D < 0 already at the swollen fraction when hot: a ratio of two negative numbers was green."""
+    found = design("millitube", critical_temperature="309 K", heating_step="2 K")
+    least, _ = validity.smallest_diffusivity(found)
+    gel = found.material.gel
+    assert gel.diffusivity(found.material.phi_00, found.T_hot) < 0
+    assert least < 0
+    assert validity.ONE_PHASE.light(least) == RED
+
+
 def test_the_microtube_by_hand():
     found = design("microtube")
     k, mu, Pi = UNIT("1e-15 m^2"), UNIT("0.89 mPa*s"), UNIT("10 kPa")

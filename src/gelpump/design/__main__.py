@@ -11,7 +11,7 @@ from typing import Any
 
 import gelpump
 from gelpump.config import ConfigError
-from gelpump.design import description, device, inverse, units, validity
+from gelpump.design import description, device, inverse, late, units, validity
 from gelpump.design.result import AMBER, GREEN
 
 
@@ -72,12 +72,14 @@ def main(arguments: list[str] | None = None) -> int:
     except ValueError as problem:
         print(f"--within = {options.within!r}: {problem}; such as '10 s'", file=sys.stderr)
         return 1
-    for each in device.results(design):
+    tube = design.kind == "tube"
+    for each in device.results(design) + (late.late_results(design) if tube else []):
         number, unit = units.shown(each.value, each.unit)
         print(f"{each.text:50} {number:12.6g} {units.readable(unit):6} {each.source}")
-    for each in validity.before_solving(design):
+    lights = validity.before_solving(design) + (late.late_lights(design) if tube else [])
+    for each in lights:
         print(f"{each.light:6} {each.criterion.text}: {each.reason}")
-    if wanted is not None and design.kind == "tube":
+    if wanted is not None and tube:
         now, longest = device.response_time(design), units.si(wanted, "s")
         for lights in (AMBER, GREEN):
             print(f"within {longest:g} s, {'no light red' if lights == AMBER else 'all green'}:")

@@ -15,7 +15,6 @@ from gelpump.materials import EnergyBasedGel, FloryRehnerGel, PiecewiseLinearGel
 from gelpump.tube import late_pump, wave
 from gelpump.tube.heat import FRONT_CONSTANT
 
-
 FIELDS = (  # key, text, unit of the file, of the page, its size in SI, ends of the slider
     ("a_0", "inner radius, swollen", "um", "µm", 1e-6, 1, 5000),
     ("a_1", "outer radius, swollen", "um", "µm", 1e-6, 1, 5000),

@@ -53,14 +53,18 @@ def render(content: Content, explorers: Mapping[str, Any], folder: Path) -> str:
 
     explorers: "tube", "beads" and "gels", as of ``embedded``; "design", as of ``designer``.
     """
-    return environment(folder).get_template("page.html").render(
-        content=content,
-        status_meaning=STATUS_MEANING,
-        explorers=explorers,
-        designer=explorers["design"],
-        data=as_it_is(embed({"colours": colours(), **explorers})),
-        script=as_it_is(scripts(SCRIPTS)),
-        style=as_it_is((TEMPLATES / "page.css").read_text(encoding="utf-8")),
+    return (
+        environment(folder)
+        .get_template("page.html")
+        .render(
+            content=content,
+            status_meaning=STATUS_MEANING,
+            explorers=explorers,
+            designer=explorers["design"],
+            data=as_it_is(embed({"colours": colours(), **explorers})),
+            script=as_it_is(scripts(SCRIPTS)),
+            style=as_it_is((TEMPLATES / "page.css").read_text(encoding="utf-8")),
+        )
     )
 
 

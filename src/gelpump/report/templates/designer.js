@@ -308,7 +308,7 @@ class Designer extends Explorer {
       arrow(context, start, at.y(0), 46, 0, { colour: themed("link"), width: 2.4 });
     });
     shadeBar(context, Math.max(100, at.box.left + 34), 6, 90, "1", printed(tube.Phi_inf, 3), "polymer fraction Φ₁");
-    words(context, withUnit(tau * t_pore, "s", 3), at.box.right, 10, { colour: themed("soft"), align: "right" });
+    if (width > 520) words(context, withUnit(tau * t_pore, "s", 3), at.box.right, 10, { colour: themed("soft"), align: "right" });
   }
 
   wanted() {

@@ -1,7 +1,7 @@
 // The travelling wave of a late pulse: `gelpump.tube.wave` and its branches, one wave at a time.
 const [WAVE_INTERVALS, WAVE_SEARCH, WAVE_GRADING] = [24, [4, 4, 8, 24], 3];
 const WAVE_DEPARTED = 0.1;
-const WAVE_FIT = 1e-10; // relative change of A at which its fit ends
+const WAVE_FIT = 1e-4; // relative change of A at which its fit ends
 const WAVE_WINDOW = 8; // in w, to either side, of that fit
 const GAUSS3 = [[-Math.sqrt(0.6), 5 / 9], [0, 8 / 9], [Math.sqrt(0.6), 5 / 9]];
 
@@ -122,13 +122,14 @@ function meeting(hot, cold) {
 function travellingWave(M, Pi_ratio, Phi_inf, c, conservative = false) {
   const [hot, cold] = branches(M, Pi_ratio, Phi_inf, c, conservative);
   const front = meeting(hot, cold);
-  const [fine, coarse] = [WAVE_INTERVALS, WAVE_INTERVALS / 2].map((n) => waveOn(hot, cold, front, Phi_inf, n));
+  const coarse = waveOn(hot, cold, front, Phi_inf, WAVE_INTERVALS / 2);
+  const fine = waveOn(hot, cold, front, Phi_inf, WAVE_INTERVALS, coarse.A);
   const found = { Phi1_front: front ** -3, profile: fine.profile };
   for (const name of ["A", "departed_length", "V_peak", "V_far"]) found[name] = fine[name] + (fine[name] - coarse[name]) / 3;
   return found;
 }
 
-function waveOn(hot, cold, front, Phi_inf, intervals) {
+function waveOn(hot, cold, front, Phi_inf, intervals, A) {
   const [there, here] = [hot, cold].map((branch) => branch.solve(front, intervals));
   const [behind, ahead] = [hot.carried(there), cold.carried(here)];
   const near = WAVE_DEPARTED * (Phi_inf - 1);
@@ -141,7 +142,7 @@ function waveOn(hot, cold, front, Phi_inf, intervals) {
   const Z = [-behind.Z.slice(1).reduce((sum, step) => sum + step, 0)];
   for (const step of steps) Z.push(Z[Z.length - 1] + step);
   const Phi = [...there.stretch.slice(1), ...here.stretch.slice(1, -1).reverse()].map(fraction);
-  return { A: tanhFit(Z, Phi, Phi_inf, 2.25 / departed), departed_length: departed, V_peak: behind.V, V_far: behind.V - ahead.V, profile: { Z, Phi } };
+  return { A: tanhFit(Z, Phi, Phi_inf, A ?? 2.25 / departed), departed_length: departed, V_peak: behind.V, V_far: behind.V - ahead.V, profile: { Z, Phi } };
 }
 
 // From the front to where the departure from rest, rising along the nodes, is `near`.
@@ -154,24 +155,26 @@ function waveDistance(Z, departure, near) {
   return covered - Math.min(Math.max(share, 0), 1) * Z[beyond];
 }
 
-// A w by Gauss-Newton's iteration for ln A.
+// A w by Newton's iteration for ln A.
 function tanhFit(Z, Phi, Phi_inf, start) {
   const clip = (z) => Math.min(Math.max(z, -WAVE_WINDOW), WAVE_WINDOW);
   const at = [Math.min(Z[0], -WAVE_WINDOW), ...Z, Math.max(Z[Z.length - 1], WAVE_WINDOW)].map(clip);
-  const values = [Phi_inf, ...Phi, 1];
-  const weight = at.map((z, i) => ((i ? z - at[i - 1] : 0) + (i < at.length - 1 ? at[i + 1] - z : 0)) / 2);
   const half = (Phi_inf - 1) / 2;
+  const above = [Phi_inf, ...Phi, 1].map((value) => (value - (1 + Phi_inf) / 2) / half);
+  const weight = at.map((z, i) => ((i ? z - at[i - 1] : 0) + (i < at.length - 1 ? at[i + 1] - z : 0)) / 2);
   let A = start;
-  for (let trial = 0; trial < 60; trial++) {
-    let [along, across] = [0, 0];
+  for (let trial = 0; trial < 40; trial++) {
+    let [gradient, square, bent] = [0, 0, 0];
     at.forEach((z, i) => {
       const tanh = Math.tanh(A * z);
-      const slope = A * z * (tanh * tanh - 1) * half;
-      along += weight[i] * slope * (values[i] - Phi_inf + half + half * tanh);
-      across += weight[i] * slope * slope;
+      const slope = A * z * (tanh * tanh - 1); // of the misfit, by ln A
+      const pull = weight[i] * slope * (above[i] + tanh);
+      gradient += pull;
+      square += weight[i] * slope * slope;
+      bent += 2 * pull * A * z * tanh;
     });
-    const step = Math.min(Math.max(along / across, -1), 1);
-    A *= Math.exp(step);
+    const step = gradient / Math.max(square + bent - gradient, square / 2);
+    A *= Math.exp(Math.min(Math.max(step, -1), 1));
     if (Math.abs(step) < WAVE_FIT) break;
   }
   return A;

@@ -15,7 +15,7 @@ from gelpump.design.solve_tube import solve_tube
 from gelpump.report import page
 
 pytestmark = pytest.mark.browser
-COUNT = 1000
+COUNT = 100
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +67,17 @@ def drawn(rng, gels):
         "heating_step": rng.uniform(0.2, 3.0),
         "density": 1000.0,
         "molecule_volume": 3e-29,
+        "repeat_unit": 0.11316,
+        "polymer_density": 1100.0,
+        "heat_capacity": 4.18e6,
+        "surrounding": str(rng.choice(["unknown", "bath", "pipe", "insulated"])),
     }
+    if given["surrounding"] == "insulated":  # of a tube whose heat is slower there is no front
+        given["permeability"] = min(given["permeability"], 1e-17)
+    if given["surrounding"] == "pipe":
+        given["pipe_section"] = np.pi * a_1**2 * rng.uniform(1.1, 20)
+    if rng.random() < 0.7:
+        given["enthalpy"] = 10 ** rng.uniform(2, 4.3)
     if name == "own":
         modulus, phi = 10 ** rng.uniform(2, 5.5), rng.uniform(0.01, 0.12)
         given |= {
@@ -96,6 +106,11 @@ SI = {
     "heating_step": "K",
     "density": "kg/m^3",
     "molecule_volume": "m^3",
+    "repeat_unit": "kg/mol",
+    "polymer_density": "kg/m^3",
+    "heat_capacity": "J/m^3/K",
+    "pipe_section": "m^2",
+    "enthalpy": "J/mol",
     "osmotic_modulus": "Pa",
     "osmotic_modulus_hot": "Pa",
     "shear_modulus": "Pa",

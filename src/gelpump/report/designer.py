@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from gelpump.design import device, late, units, validity
+from gelpump.design import device, heat, late, units, validity
 from gelpump.design.description import Design, checked
 from gelpump.design.solve_tube import TIMES
 from gelpump.materials import EnergyBasedGel, FloryRehnerGel, PiecewiseLinearGel, from_config
@@ -30,12 +30,19 @@ FIELDS = (  # key, text, unit of the file, of the page, its size in SI, ends of 
     ("critical_temperature", "critical temperature", "K", "K", 1.0, 280, 350),
     ("heating_step", "heating step ΔT, to either side", "K", "K", 1.0, 0.05, 30),
     ("density", "density of the liquid", "kg/m^3", "kg/m³", 1.0, 500, 2000),
+    ("enthalpy", "enthalpy of the collapse, empty if unknown", "kJ/mol", "kJ/mol", 1e3, 0.1, 50),
+    ("pipe_section", "section of the pipe", "mm^2", "mm²", 1e-6, 1e-3, 1e3),
     ("wanted_time", "respond within", "s", "s", 1.0, 1e-3, 1e4),
     ("wanted_volume", "pump at least", "nL", "nL", 1e-12, 1e-4, 1e4),
     ("wanted_wall", "wall at least", "um", "µm", 1e-6, 1, 2000),
 )
 LINEAR = ("critical_temperature", "density")
-WANTED = {"wanted_time": 0.05, "wanted_volume": 5, "wanted_wall": 20}  # of the first design
+WANTED = {
+    "wanted_time": 0.05,
+    "wanted_volume": 5,
+    "wanted_wall": 20,
+    "pipe_section": 1,
+}  # of the first design
 EMPTY: Mapping[str, str] = {}
 MODELS = ("energy-based", "piecewise-linear", "flory-rehner")
 
@@ -46,13 +53,16 @@ def designer(
     """gels: blocks of the configuration; designs: blocks of tubes by name, of which the first is
     shown at the start; files: where gels stand that are not in the configuration."""
     found = {name: checked(name, block, gels) for name, block in designs.items()}
+    heated = {"surrounding": "insulated", "enthalpy": heat.USUAL_MOST}  # of which most is told
+    told_of = [checked(name, block | heated, gels) for name, block in designs.items()]
     formulae = {name: block for name, block in gels.items() if block.get("model") in MODELS}
     told = {name: gel(from_config(name, block)) for name, block in formulae.items()}
     return {
         "gels": {name: each | {"file": files.get(name)} for name, each in told.items()},
         "fields": [_field(*each) for each in FIELDS],
         "designs": {name: _given(each, designs[name]) for name, each in found.items()},
-        "quantities": _quantities(next(iter(found.values()))),
+        "quantities": {k: v for each in told_of for k, v in _quantities(each).items()},
+        "usual_enthalpy": units.si(units.parsed(heat.USUAL_MOST, "J/mol"), "J/mol"),
         "criteria": {
             each.key: {
                 "text": each.text,
@@ -126,7 +136,11 @@ def _given(design: Design, block: Mapping[str, Any]) -> dict[str, Any]:
             key: units.si(units.parsed(value, "Pa"), "Pa") if isinstance(value, str) else value
             for key, value in own.items()
         }
-    return told | {"title": design.title, "gel": own if isinstance(own, str) else "own"}
+    latent = told.pop("latent_heat", None)
+    if latent is not None:
+        told["enthalpy"] = latent * told["repeat_unit"] / told["polymer_density"]
+    told |= {"title": design.title, "surrounding": design.surrounding}
+    return told | {"gel": own if isinstance(own, str) else "own"}
 
 
 def _quantities(design: Design) -> dict[str, list[str]]:

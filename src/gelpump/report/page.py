@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import jinja2
 
 TEMPLATES = Path(__file__).parent / "templates"
-ENGINE = ("wave", "pulse", "material", "device")  # of the designer, without any page
+ENGINE = ("wave", "pulse", "material", "heat", "device")  # of the designer, without any page
 SCRIPTS = (
     *("theme", "tables", "arrays", "plot", "explorer", "tube", "bead", "gel"),
     *ENGINE,

@@ -25,7 +25,7 @@ class Designer extends Explorer {
     for (const row of this.element.querySelectorAll("[data-field]")) this.addField(row);
     const [first] = Object.values(data.design.designs);
     this.start = first;
-    for (const name of ["gel", "title", "light"]) this.control(name).addEventListener("input", () => this.changed());
+    for (const name of ["gel", "title", "light", "surrounding"]) this.control(name).addEventListener("input", () => this.changed());
     this.control("preset").addEventListener("change", (event) => this.take(data.design.designs[event.target.value]));
     this.setTime = this.slider("moment", 101, 100, () => this.momentText(), (i) => {
       this.moment = i;
@@ -80,7 +80,11 @@ class Designer extends Explorer {
   // Fill the form with a design in SI units.
   fill(design) {
     for (const [key, value] of Object.entries(design)) if (this.fields.has(key)) this.set(key, value);
-    this.control("gel").value = design.gel;
+    if (design.gel) {
+      this.control("gel").value = design.gel;
+      this.control("surrounding").value = design.surrounding;
+      if (!design.enthalpy) this.fields.get("enthalpy").number.value = "";
+    }
     if (design.title) this.control("title").value = design.title;
   }
 
@@ -95,20 +99,25 @@ class Designer extends Explorer {
         this.fields.get(key).number.value = value;
         this.fields.get(key).toSlider();
       } else if (key === "gel" && (value === "own" || value in data.design.gels)) this.control("gel").value = value;
+      else if (key === "surrounding") this.control("surrounding").value = value;
+      else if (key === "enthalpy") this.fields.get("enthalpy").number.value = "";
       else if (key === "title") this.control("title").value = value.slice(0, 80);
     }
   }
 
   // Which fields the chosen gel asks for.
   asked(key) {
+    if (key === "pipe_section") return this.control("surrounding").value === "pipe";
     const gel = this.control("gel").value;
     if (!OWN_GEL.includes(key)) return true;
     return gel === "own" || (key === "osmotic_modulus" && data.design.gels[gel].kind === "ratios");
   }
 
   given() {
-    const given = { gel: this.control("gel").value, molecule_volume: this.start.molecule_volume };
+    const given = { gel: this.control("gel").value, surrounding: this.control("surrounding").value };
+    for (const key of ["molecule_volume", "repeat_unit", "polymer_density", "heat_capacity"]) given[key] = this.start[key];
     for (const [key, { number, factor }] of this.fields) {
+      if (key === "enthalpy" && number.value === "") continue;
       if (this.asked(key) && !key.startsWith("wanted_")) given[key] = number.value === "" ? NaN : Number(number.value) * factor;
     }
     return given;
@@ -173,7 +182,7 @@ class Designer extends Explorer {
     return `Responds in ${this.said("response_time")}.${pumped} Lights: ${count("green")} green, ${count("amber")} amber, ${count("red")} red.`;
   }
 
-  lightRow({ key, value, light }) {
+  lightRow({ key, value, light, open }) {
     const { text, symbol, green, amber, large } = data.design.criteria[key];
     const item = document.createElement("li");
     item.className = `light-${light}`;
@@ -181,7 +190,7 @@ class Designer extends Explorer {
     const limit = amber > 1e-9 ? printed(amber) : "0";
     item.innerHTML = `<strong><span aria-hidden="true">${LIGHT_MARKS[light]}</span> ${light}</strong> <span></span><small></small>`;
     item.children[1].textContent = text;
-    item.children[2].textContent = `${symbol} = ${value < 1e9 ? printed(value, 3) : "unknown"}; green ${sign} ${printed(green)}, amber ${sign} ${limit}`;
+    item.children[2].textContent = `${symbol} = ${value < 1e9 ? printed(value, 3) : "unknown"}${open ? ", open" : ""}; green ${sign} ${printed(green)}, amber ${sign} ${limit}`;
     return item;
   }
 
@@ -200,7 +209,7 @@ class Designer extends Explorer {
   }
 
   fragment() {
-    const shared = new URLSearchParams({ gel: this.control("gel").value, title: this.control("title").value });
+    const shared = new URLSearchParams({ gel: this.control("gel").value, surrounding: this.control("surrounding").value, title: this.control("title").value });
     for (const [key, { number }] of this.fields) if (this.asked(key)) shared.set(key, number.value);
     return `#design?${shared}`;
   }
@@ -213,7 +222,11 @@ class Designer extends Explorer {
     const gel = this.control("gel").value;
     const file = data.design.gels[gel]?.file;
     const lines = [`# made in the page of gelpump's report${file ? `; solve it with --configfile ${file}` : ""}`, `title: ${JSON.stringify(this.control("title").value.slice(0, 80) || "A tube")}`, "kind: tube"];
-    for (const key of this.fields.keys()) if (!OWN_GEL.includes(key) && !key.startsWith("wanted_")) lines.push(`${key}: ${quantity(key)}`);
+    for (const [key, { number }] of this.fields) {
+      if (OWN_GEL.includes(key) || key.startsWith("wanted_") || !this.asked(key)) continue;
+      lines.push(`${key}: ${key === "enthalpy" && number.value === "" ? "unknown" : quantity(key)}`);
+    }
+    lines.push(`surrounding: ${this.control("surrounding").value}`);
     if (gel !== "own") lines.push(`gel: ${gel}`);
     else lines.push("gel:", ...OWN_GEL.map((key) => `  ${key}: ${quantity(key)}`));
     if (gel !== "own" && data.design.gels[gel].kind === "ratios") lines.push(`osmotic_modulus: ${quantity("osmotic_modulus")}`);

@@ -31,7 +31,9 @@ function evaluate(given) {
     model.pump = latePump(tube, Le, end, tau_99);
     model.late = Number.isFinite(model.pump.uncertainty.pumped_station);
   }
-  const lights = firstLights(given, gel, numbers);
+  const heat = heatOf(given, gel, tube, Le);
+  Object.assign(numbers, heat.numbers);
+  const lights = firstLights(given, gel, numbers, heat);
   if (model.late) {
     Object.assign(numbers, lateNumbers(given, model));
     Object.assign(lights, flowLights(given, gel, model, numbers));
@@ -61,10 +63,10 @@ function lateNumbers({ a_0, a_1, heated_length: L }, { tube, Le, tau_99, t_pore,
 }
 
 // The lights that need no pulse: values by criterion.
-function firstLights(given, gel, numbers) {
+function firstLights(given, gel, numbers, heat) {
   const { a_0, a_1, heated_length: L, permeability: k } = given;
   const lights = {
-    slenderness: (a_1 / L) ** 2, coupling: k / a_1 ** 2, lewis: numbers.Lewis_number[0], continuum: (a_1 - a_0) / Math.sqrt(k), plausible: plausible(given, numbers),
+    slenderness: (a_1 / L) ** 2, coupling: k / a_1 ** 2, continuum: (a_1 - a_0) / Math.sqrt(k), plausible: plausible(given, numbers), heat: heat.light(),
   };
   let least = Infinity;
   const swollen = Math.abs(gel.diffusivity(1));
@@ -116,11 +118,11 @@ function flowLights(given, gel, { tube, Le, tau_99, t_pore, end }, numbers) {
   };
 }
 
-// { key, value, light } in the order of the sheet.
+// { key, value, light } in the order of the sheet; a value with whether it is open is amber then.
 function sortedLights(values) {
   return Object.entries(data.design.criteria).filter(([key]) => key in values).map(([key, { green, amber, large }]) => {
-    const value = values[key];
+    const [value, open] = [values[key]].flat();
     const within = (limit) => (large ? value >= limit * (1 - 1e-9) : value <= limit * (1 + 1e-9));
-    return { key, value, light: within(green) ? "green" : within(amber) ? "amber" : "red" };
+    return { key, value, open: Boolean(open), light: open ? "amber" : within(green) ? "green" : within(amber) ? "amber" : "red" };
   });
 }

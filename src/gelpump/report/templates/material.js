@@ -80,6 +80,12 @@ class ExplicitGel {
     return (this.kappa * phi + Math.cbrt(phi)) / this.Omega + this.ionicModulus(phi) + phi ** 2 * this.mixing(phi, T);
   }
 
+  // T^2 times the slope in T of the interaction's energy: all of it that depends on T.
+  heat(phi, T) {
+    const [a, b, c] = this.slope;
+    return (this.inverse ? -1 : T ** 2) * phi * (a + phi * (b / 2 + (phi * c) / 3));
+  }
+
   // The sign of dT_eq/dphi: N' Q - N Q' of s_eq = N/Q.
   turning(phi) {
     const athermal = this.athermal(phi);
@@ -108,7 +114,7 @@ function material(given, T_cold, T_hot) {
     const { osmotic_modulus: Pi_00, osmotic_modulus_hot: hot, shear_modulus: mu_s, polymer_fraction: phi_00, polymer_fraction_hot: phi_hot } = given;
     if (!(phi_00 < 1 && phi_hot < 1)) throw new Refusal("polymer fractions must be less than 1");
     if (!(phi_hot > phi_00)) throw new Refusal("the polymer fraction when hot must be greater than when cold: the gel collapses");
-    return linearGel(Pi_00, mu_s / Pi_00, hot / Pi_00, phi_hot / phi_00);
+    return { ...linearGel(Pi_00, mu_s / Pi_00, hot / Pi_00, phi_hot / phi_00), phi_00 };
   }
   const gel = data.design.gels[given.gel];
   if (gel.kind === "ratios") return linearGel(given.osmotic_modulus, gel.M, gel.Pi_ratio, gel.Phi_inf);
@@ -125,6 +131,7 @@ function material(given, T_cold, T_hot) {
   const Pi_hot = hot * own.osmoticModulus(phi_hot, T_hot);
   return {
     Pi_00, M: (cold * Math.cbrt(phi_00)) / gel.Omega / Pi_00, Pi_ratio: Pi_hot / Pi_00, Phi_inf: phi_hot / phi_00, phi_00, energyBased: true,
+    ownHeat: (T) => (BOLTZMANN / volume) * (own.heat(phi_hot, T) - own.heat(phi_00, T)),
     diffusivity: (Phi) => hot * own.diffusivity(phi_00 * Phi, T_hot), // in k/mu_l
   };
 }

@@ -15,7 +15,7 @@ function* scanned(given, wanted) {
       const design = { ...given, a_0: ell * a_1, a_1 };
       const own = first * wallLength(here) ** 2;
       const point = { i, j, ell, a_1, time: t_pore * own, wall: a_1 - design.a_0, volume: pumpedVolume(design, here, model, own) };
-      const red = worst(design, gel, point, model);
+      const red = worst(design, gel, point, here, model);
       point.feasible = point.time <= wanted.time && point.volume >= wanted.volume && point.wall >= wanted.wall && (wanted.light === "green" ? red === 0 : red < 2);
       yield point;
     }
@@ -31,9 +31,11 @@ function pumpedVolume({ a_1, heated_length }, tube, { Le, end }, tau_99) {
 }
 
 // The worst of the lights that need no pulse: 0 green, 1 amber, 2 red.
-function worst(design, gel, { time }, { Le }) {
+function worst(design, gel, { time }, tube, { Le }) {
+  const section = Math.PI * design.a_1 ** 2;
+  if (design.surrounding === "pipe" && design.pipe_section < section) return 2;
   const numbers = { Lewis_number: [Le], response_time: [time], osmotic_modulus: [gel.Pi_00], shear_modulus: [gel.M * gel.Pi_00] };
-  const lights = sortedLights(firstLights(design, gel, numbers));
+  const lights = sortedLights(firstLights(design, gel, numbers, heatOf(design, gel, tube, Le)));
   return largest(lights.map((each) => ["green", "amber", "red"].indexOf(each.light)));
 }
 

@@ -66,6 +66,16 @@ def hand_gel(A0, A1, B0, B1, Omega, T, phi, **_):
     return phi * slope, Pi(phi)
 
 
+def test_heat_that_the_water_takes_along_leaves_no_front():
+    """An insulated tube whose water is faster than its heat: red, and no crash."""
+    found = design("microtube", surrounding="insulated", thermal_diffusivity="1e-10 m^2/s")
+    lights = {each.criterion.key: each for each in validity.before_solving(found)}
+    assert lights["heat"].light == RED
+    known = design("microtube", surrounding="insulated", thermal_diffusivity="1e-10 m^2/s",
+                   enthalpy="5.5 kJ/mol")  # fmt: skip
+    assert "travel_time_held_back" not in {each.key for each in device.results(known)}
+
+
 def test_a_gel_that_is_unstable_where_it_starts_is_red():
     """D < 0 already at the swollen fraction when hot: a ratio of two negative numbers was green."""
     found = design("millitube", critical_temperature="309 K", heating_step="2 K")

@@ -179,10 +179,11 @@ def results(design: Design) -> list[Result]:
 
         held = shift(design, design.surrounding, found["St"])
         travel = units.si(given["heated_length"] ** 2 / given["thermal_diffusivity"], "s")
-        rows.append(
-            Result("travel_time_held_back", "time of the front, held back by latent heat",
-                   "t_L", travel / (FRONT_CONSTANT * (1 + held)) ** 2, "s", DERIVED)
-        )  # fmt: skip
+        if held > -1:
+            rows.append(
+                Result("travel_time_held_back", "time of the front, held back by latent heat",
+                       "t_L", travel / (FRONT_CONSTANT * (1 + held)) ** 2, "s", DERIVED)
+            )  # fmt: skip
     return rows
 
 

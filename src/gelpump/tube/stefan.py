@@ -163,6 +163,8 @@ def front_constant(
             hot = S * np.exp(-(y**2)) / erf(y)
             return hot - 1 / erfcx((1 + beta) * y) - np.sqrt(np.pi) * y * consumed
 
+        if excess(1e-8) <= 0:  # the water that circulates takes all heat with it
+            return 0.0
         return 2 * brentq(excess, 1e-8, 5.0, xtol=1e-15, rtol=1e-14)
 
     return np.vectorize(root, otypes=[float])(S, beta, consumed)

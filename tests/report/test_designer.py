@@ -15,7 +15,7 @@ from gelpump.design.solve_tube import solve_tube
 from gelpump.report import page
 
 pytestmark = pytest.mark.browser
-COUNT = 100
+COUNT = 1000
 
 
 @pytest.fixture(scope="module")

@@ -19,7 +19,8 @@ def settle() -> None:
 
     Snakemake writes the interpreter's path into lines of a shell without quotes: where it has
     spaces or the like, Python is called by its name, from the front of PATH.  Jobs need
-    docstrings (FiPy adds to some), and of FiPy's own switches none.
+    docstrings (FiPy adds to some), and of FiPy's own switches none.  Params are plain here, so
+    Snakemake need not import pandas to ask each of them whether it is a data frame.
     """
     if shlex.quote(sys.executable) != sys.executable:
         folder, sys.executable = os.path.split(sys.executable)
@@ -29,6 +30,10 @@ def settle() -> None:
         if name == "PYTHONOPTIMIZE" or name.startswith("FIPY_"):
             del os.environ[name]
     os.environ["FIPY_SOLVERS"] = "scipy"
+    from snakemake import persistence
+
+    if kept := getattr(persistence, "PersistenceBase", None):
+        kept._serialize_param = property(lambda self: self._serialize_param_builtin)
 
 
 def complete(workflow: Any, config: dict[str, Any], arguments: Sequence[str] | None = None) -> None:

@@ -170,6 +170,16 @@ def test_entries_of_config_keep_their_kinds_and_add_up():
             complete(["--config", entry], [], [entry])
 
 
+def test_pandas_is_not_imported_for_plain_params():
+    code = "import sys; from gelpump import launch; launch.settle()\n"
+    code += "from snakemake.persistence.file import FilePersistence as P\n"
+    code += "print(P._serialize_param.fget(P.__new__(P))({'a': [1]}), 'pandas' in sys.modules)"
+    result = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    )
+    assert result.stdout == "{'a': [1]} False\n"
+
+
 def test_the_interpreter_is_called_by_its_name_where_a_shell_would_split_its_path(monkeypatch):
     for path in (sys.executable, "/tmp/plain/.venv/bin/python3"):
         monkeypatch.setattr(sys, "executable", path)

@@ -153,8 +153,8 @@ def branches(gel: Gel, low: float, high: float) -> tuple[Branch, Branch]:
 class RealWall:
     """The wall of any gel in T(Z, tau), in K; swollen is its equilibrium at ``programme.start``.
 
-    pressure(T): the unit of the gel's pressures, relative; k_B T where a gel's are in k_B T/volume.
-    Raises ValueError for a programme outside the gel's temperatures.
+    The gel's pressures are in k_B T over a volume. ValueError for a programme outside its
+    temperatures.
     """
 
     def __init__(
@@ -164,14 +164,13 @@ class RealWall:
         Le: float,
         closure: Conservative,
         gel: Gel,
-        thermal_pressure: bool = True,
     ):
         self.programme, self.Le, self.closure, self.gel = programme, Le, closure, gel
         self.w = float(closure.wall_length(tube))
         self.swollen, self.dry = branches(gel, *programme.extremes)
         T = programme.start
         self.phi_00 = float(gel.equilibrium_polymer_fraction(T))
-        self.T_00, self.thermal = T, thermal_pressure
+        self.T_00 = T
         self.unit = float(gel.osmotic_modulus(self.phi_00, T))
         self.mu = gel.shear_modulus(self.phi_00) / self.unit
         self.is_dry = None
@@ -186,7 +185,7 @@ class RealWall:
 
     def pressure(self, T):
         """Unit of the gel's pressures over Pi_00."""
-        return (T / self.T_00 if self.thermal else 1.0) / self.unit
+        return T / self.T_00 / self.unit
 
     def equilibrium(self, T):
         """Phi_0(T) of the branch that each slice is on, polished from the table by Newton."""

@@ -36,6 +36,11 @@ def assemble(
         *validity.before_solving(design),
         *validity.after_solving(design, data),
     ]
+    measured_error = validity.measured_linearity({each.key: each for each in measured})
+    lights = [
+        measured_error if measured_error and each.criterion is validity.LINEAR else each
+        for each in lights
+    ]
     if data.attrs.get("stopped"):
         lights = [
             validity.Light(each.criterion, -1.0, data.attrs["stopped"])

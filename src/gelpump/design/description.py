@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from gelpump.config import ConfigError, require_plain, schema_problems, value_problems
+from gelpump.design import programme as programmes
 from gelpump.design import units
 from gelpump.design.heat import UNKNOWN, given_latent_heat
 from gelpump.design.material import Material, from_energy, from_moduli, from_ratios
@@ -40,6 +41,7 @@ class Design:
     T_hot: float
     wanted: Mapping[str, Any]
     surrounding: str = UNKNOWN
+    programme: programmes.Cycles | None = None
 
     def si(self, key: str) -> float:
         """The magnitude of a given quantity in its SI unit."""
@@ -113,9 +115,13 @@ def checked(name: str, block: Any, gels: Mapping[str, Any]) -> Design:
         material = _material(block, given, gel, gels, T_cold, T_hot)
     except ValueError as refusal:
         _refuse(name, [str(refusal)])
+    cycles, wrong = programmes.read(block, T_cold)
+    if cycles and kind == "bead" and not material.energy_based:
+        wrong.append(f"programme: a bead's gel = {block['gel']!r}: must be one with an energy")
+    _refuse(name, [*wrong, *(programmes.range_problems(cycles, material) if cycles else ())])
     return Design(
         name, kind, block.get("title", name), given, material, T_cold, T_hot, wanted,
-        block.get("surrounding", UNKNOWN),
+        block.get("surrounding", UNKNOWN), cycles,
     )  # fmt: skip
 
 

@@ -60,7 +60,7 @@ def number_rows(data: xr.Dataset) -> list[tuple[str, str, str, str]]:
 
 def notes(data: xr.Dataset) -> list[str]:
     """What has to be said beside the numbers."""
-    keys = ("gel_warnings", "front_note", "pump_note", "gel_note")
+    keys = ("gel_warnings", "front_note", "pump_note", "own_gel_note", "cycle_note", "gel_note")
     found = [data.attrs[key] for key in keys if key in data.attrs]
     if "wanted_response_time" in data and "response_time" not in data:
         why = data.attrs.get("stopped") or "it is slower than we waited for"

@@ -15,6 +15,8 @@ from gelpump.design import units
 from gelpump.design.description import Design
 from gelpump.design.device import scales
 from gelpump.design.front import front_of, separates
+from gelpump.design.own_gel import own_gel
+from gelpump.design.programme import solved
 from gelpump.design.refined import levels, variable
 from gelpump.design.result import Result
 from gelpump.design.solve_tube import solve_tube
@@ -27,6 +29,14 @@ def solve(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Result]]:
     """The solved device, and the numbers measured on it; of a gel that separates, its front's."""
     solver = solve_tube if design.kind == "tube" else solve_bead
     data, found = solver(design, numerics)
+    if design.kind == "tube" and design.material.energy_based:
+        own, note = own_gel(design)
+        found = found + own
+        data = data.assign_attrs({"own_gel_note": note} if note else {})
+    if design.programme:
+        more, own, note = solved(design)
+        data = data.assign(more).assign_attrs({"cycle_note": note} if note else {})
+        found = found + own
     if separates(design, data.attrs.get("stopped", "")):
         front, note = front_of(design)
         return data.assign_attrs(front_note=note), found + front

@@ -6,6 +6,7 @@ Green is where the paper works itself (eps = 0.1, Le = 10), red where a correcti
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy as np
 from gelpump.design import heat, units
 from gelpump.design.description import Design
 from gelpump.design.device import diffusivity, lewis_number
-from gelpump.design.result import Criterion, Light
+from gelpump.design.result import Criterion, Light, Result
 from gelpump.design.units import told
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ CONTINUUM = Criterion("continuum", "the gel is many pores thick", "thickness/√
                       "Darcy's law, eqn:fluid_flux", large=True)  # fmt: skip
 ONE_PHASE = Criterion("one_phase", "phases do not separate on the way", "min D/D", 0.1, 1e-12,
                       "section 2.1.1", large=True)  # fmt: skip
-LINEAR = Criterion("linearisation", "the gel is as linear as the tube takes it", "|Δt/t|", 0.1, 0.5,
+LINEAR = Criterion("linearisation", "the gel is as linear as the tube takes it", "error", 0.1, 0.5,
                    "eqn:piecewise_osmotic_pressure")  # fmt: skip
 CLOSE = Criterion("closeness", "Φ₁ is close to Φ₀ but for the front", "share", 0.1, 0.3,
                   "section 3.3, below eqn:tube_model")  # fmt: skip
@@ -218,6 +219,19 @@ def _gel_lights(design: Design) -> list[Light]:
         )
         found.append(Light(LINEAR, min(value, 1e9), reason))
     return found
+
+
+def measured_linearity(found: Mapping[str, Result]) -> Light | None:
+    """Of a tube that was solved with its gel's own D and phi_0(T): the linear one's error."""
+    from gelpump.design.own_gel import KEY
+
+    own, linear = (found.get(key) for key in (KEY, "final_pumped_volume_conserving"))
+    if own is None or linear is None:
+        return None
+    volumes = [units.shown(each.value, "m^3") for each in (linear, own)]
+    said = [f"{units.told(number)} {units.readable(unit)}" for number, unit in volumes]
+    reason = f"{said[0]} are pumped with the tangents, {said[1]} with the gel’s own D, φ₀(T)"
+    return Light(LINEAR, abs(linear.value / own.value - 1), reason)
 
 
 def after_solving(design: Design, data: xr.Dataset) -> list[Light]:

@@ -102,6 +102,7 @@ block = {
     "thermal_diffusivity": "1.43e-7 m^2/s",
     "critical_temperature": "32 degC",
     "heating_step": "3 K",
+    "surrounding": "bath",
 }
 pump = design.checked("microtube", block, gels={})
 for result in design.results(pump):

@@ -277,6 +277,20 @@ MUTANTS = (
         "tests/tube/test_heat.py",
     ),
     Mutant(
+        "a collapse that gives off its latent heat",
+        "src/gelpump/tube/heated_family.py",
+        "residual = residual - self.wall * L * water",
+        "residual = residual + self.wall * L * water",
+        "tests/tube/test_heated.py -k second_solver",
+    ),
+    Mutant(
+        "a bath that feels the whole of its tube",
+        "src/gelpump/tube/stefan.py",
+        'return np.where(self.kind == "bath", 0.0, f)',
+        "return f",
+        "tests/tube/test_stefan.py -k roots",
+    ),
+    Mutant(
         "walls half as thick",
         "src/gelpump/tube/tubes.py",
         "return self.eps * (1 - self.ell) / 4",

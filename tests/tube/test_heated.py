@@ -5,6 +5,7 @@ import pytest
 
 from gelpump.second_solvers import heated_tube
 from gelpump.tube import heated
+from gelpump.tube.closure import CLOSURES
 from gelpump.tube.heat import FRONT_CONSTANT
 from gelpump.tube.stefan import (
     Surrounding,
@@ -15,7 +16,7 @@ from gelpump.tube.stefan import (
 from gelpump.tube.tubes import Tubes
 
 ELL = 0.5
-W = float(heated.CLOSURES["conservative"].wall_length(Tubes(ELL)))
+W = float(CLOSURES["conservative"].wall_length(Tubes(ELL)))
 KINDS = ["pipe", "pipe", "pipe", "insulated", "bath"]
 F_ST = np.array([0.0, 0.1, 1.0, 0.0, 2.0])  # of sections as wide as the tube
 ST = F_ST / (1 - ELL**2)

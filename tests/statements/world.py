@@ -306,6 +306,24 @@ def truth():
     }
 
 
+def cycled():
+    """Three periods of two cycles."""
+    stroke = np.array([[0.1, 0.11], [0.2, 0.22], [0.4, 0.44]])
+    dims = ("period", "cycle")
+    return xr.Dataset(
+        {
+            "stroke": (dims, stroke),
+            "stroke_uncertainty": (dims, 1e-6 * stroke),
+            "stroke_second": (dims, 1.0001 * stroke),
+            "net": (dims, 1e-6 * stroke),
+            "net_uncertainty": (dims, 1e-7 * stroke),
+            "net_within": (dims, 0.25 * stroke),
+            "water_balance_error": ("period", [1e-12, 2e-12, 3e-12]),
+        },
+        {"period": [1e-3, 4e-3, 1.6e-2], "cycle": [1, 2]},
+    )
+
+
 def flow():
     """A wall with Phi = Phi_1 + eps^2 Phi_2, Phi_2 = 3 (R - 0.5)^2, a hot and a cold section."""
     Phi1, R = np.array([1.9, 1.1]), np.linspace(0.25, 0.75, 9)
@@ -346,6 +364,7 @@ _WORLD = Evidence(
         **truth(),
         "pump_balance": pumps(),
         "tube_heat": heated(),
+        "cycle_tube": cycled(),
     },
     gels=GELS,
     cases={

@@ -7,6 +7,7 @@ BEYOND = [
     "pump_balance",
     "wall_times",
     "tube_heat",
+    "cycle_tube",
     *(Path(file).stem for file in SEPARATED if file.endswith(".nc")),
 ]
 DRAWN_BEADS = {

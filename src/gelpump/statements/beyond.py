@@ -6,9 +6,15 @@ closed form, a limit or another solver, stands where the paper's value would: ``
 paper alone is whole.  The datasets are listed in ``BEYOND`` of workflow/rules/statements.smk.
 """
 
-from gelpump.statements import heat, pumping, separation, truth
+from gelpump.statements import cycles, heat, pumping, separation, truth
 from gelpump.statements.statement import Collection
 
 statements = Collection(
-    [*pumping.statements, *truth.statements, *separation.statements, *heat.statements]
+    [
+        *pumping.statements,
+        *cycles.statements,
+        *truth.statements,
+        *separation.statements,
+        *heat.statements,
+    ]
 )

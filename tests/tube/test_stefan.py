@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_bvp
+from scipy.integrate import quad, solve_bvp
+from scipy.special import erfcinv, i0e, i1e, jv
 
 from gelpump.tube.heat import FRONT_CONSTANT
 from gelpump.tube.stefan import Surrounding, bath_shift, front_constant, tolerated
@@ -58,3 +59,32 @@ def test_bath_holds_a_thin_tube_back_in_proportion_and_a_fat_one_as_a_pipe():
     pipe = np.log(front_constant(tubes(1), small, Surrounding("pipe")) / FRONT_CONSTANT) / small
     fat = bath_shift(Tubes(ELL, 0.4), 1.0, 1e-3)  # heat stays within a tube that is a wide plate
     assert float(fat) == pytest.approx(pipe[0], rel=2e-3)
+
+
+def test_heat_of_a_disc_that_stays_within_it():
+    """The closed form of `bath_shift` against Hankel's transform of a disc that spreads."""
+    for y in (0.05, 1.0, 20.0):
+        stays, _ = quad(lambda k, y=y: 2 * jv(1, k) ** 2 / k * np.exp(-(k**2) / (2 * y)), 0, 200)
+        assert 1 - i0e(y) - i1e(y) == pytest.approx(stays, rel=2e-3)
+
+
+def test_shift_in_a_bath_by_summing_point_sinks():
+    """What the sinks that the front has left behind do to theta at it, one by one in time."""
+    eps, Le, tau = 0.1, 10.0, 0.11
+    c = 2 * erfcinv(0.5)
+    Z_C = c * np.sqrt(Le * tau)
+
+    def felt(v):  # at the time tau (1 - v^2)
+        s, then = tau * v**2, Z_C * np.sqrt(1 - v**2)
+        y = eps**2 / (2 * Le * s)
+        disc, _ = quad(lambda k: 2 * jv(1, k) ** 2 / k * np.exp(-(k**2) / (2 * y)), 0, 60)
+        line = np.exp(-((Z_C - then) ** 2) / (4 * Le * s)) - np.exp(
+            -((Z_C + then) ** 2) / (4 * Le * s)
+        )
+        advance = Z_C * v / np.sqrt(1 - v**2)
+        return disc * line / np.sqrt(4 * np.pi * Le * s) * advance
+
+    cooled, _ = quad(felt, 0, 1, epsrel=1e-4, limit=200)
+    gradient = 2 / np.sqrt(np.pi) * np.exp(-(c**2) / 4) / np.sqrt(Le * tau)
+    expected = -0.75 * np.cbrt(2) * cooled / (gradient * Z_C)
+    assert float(bath_shift(Tubes(ELL, eps), 1.0, Z_C)) == pytest.approx(expected, rel=2e-3)

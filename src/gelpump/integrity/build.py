@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 RESULTS = Path("results")
 MANIFEST = RESULTS / "manifest.json"
+NUMBERS = "tables/figure_numbers.json", "claims.json", "beyond.json"  # below RESULTS
 CRATE = RESULTS / "ro-crate-metadata.json"
 NO_BUILD = f"there is no build here ({MANIFEST} is missing): run `snakemake --cores 2` first"
 
@@ -75,14 +76,13 @@ class Build:
 
     def figure_numbers(self) -> list[dict[str, Any]]:
         """The numbers of the figures and of the statements; none of a file that is not there."""
-        shown, claims = (
-            _read(path) if path.exists() else []
-            for path in (RESULTS / "tables/figure_numbers.json", RESULTS / "claims.json")
+        shown, claims, beyond = (
+            _read(path) if path.exists() else [] for path in (RESULTS / name for name in NUMBERS)
         )
         return shown + [
             {"figure": "statement", "quantity": each["id"], "value": each["computed"]}
             | {"uncertainty": each["uncertainty"]}
-            for each in claims
+            for each in claims + beyond
             if isinstance(each["computed"], float | list)
         ]
 

@@ -88,7 +88,8 @@ def of_figures(rows: Iterable[Mapping[str, Any]]) -> Values:
     """Value and tolerance of each number of ``figure_numbers.json``."""
     values = {}
     for row in rows:
-        numbers, doubts = np.atleast_1d(row["value"]), np.atleast_1d(row["uncertainty"])
+        numbers = np.atleast_1d(row["value"])
+        doubts = np.broadcast_to(row["uncertainty"], numbers.shape)
         for i, (value, doubt) in enumerate(zip(numbers, doubts, strict=True), start=1):
             rank = f", {i} of {numbers.size}" if numbers.size > 1 else ""
             values[f"{row['figure']}: {row['quantity']}{rank}"] = _entry(value, SAFETY * doubt)

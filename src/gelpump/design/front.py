@@ -81,6 +81,8 @@ def _times(design: Design, coarser: int) -> np.ndarray:
         tolerance=TOLERANCE * coarser**2,
         skin=sharp.SKIN * coarser,
     )
+    if run.stopped:
+        raise RuntimeError(run.stopped)
     if "completion_t" not in run.attrs:
         what = "does not arrive" if "birth_t" in run.attrs else "is not born in the nonlinear bead"
         raise RuntimeError(f"it {what} within {HORIZON:g} relaxation times")

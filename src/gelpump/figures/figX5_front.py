@@ -1,5 +1,6 @@
 """Figure X5: a bead that separates dries by a front, in the sharp limit of both models."""
 
+import textwrap
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,7 +23,10 @@ def draw(nonlinear: "xr.Dataset", lens: "xr.Dataset") -> Figure:
     """
     fig = style.figure(height=2.6)
     left, right = fig.subplots(1, 2, width_ratios=(1.15, 1.0))
-    end = 1.25 * max(run.attrs.get("completion_t", float(run.t[-1])) for run in (nonlinear, lens))
+    end = (
+        1.25 * max(run.attrs.get("completion_t", float(run.t[-1])) for run in (nonlinear, lens))
+        or 1.0
+    )
     for run in (nonlinear, lens):
         _courses(left, run, end)
     left.set(
@@ -59,8 +63,15 @@ def _courses(ax, run, end):
 def _profiles(ax, run):
     front = run.front_dry_radius.where(run.front_present > 0).values
     wanted = np.linspace(0.95, 0.2, PROFILES)
-    chosen = [int(np.nanargmin(np.abs(front - R))) for R in wanted]
-    for i, colour in zip(chosen, style.shades(style.LATER, PROFILES), strict=True):
+    met = np.isfinite(front)
+    if not met.any():
+        said = run.attrs["stopped"] or "it goes on in one phase"
+        ax.text(0.5, 0.5, textwrap.fill(f"No front travels: {said}.", 34), ha="center", va="center",
+                transform=ax.transAxes, fontsize=7)  # fmt: skip
+        ax.set_axis_off()
+        return
+    chosen = np.unique([int(np.nanargmin(np.abs(front - R))) for R in wanted])
+    for i, colour in zip(chosen, style.shades(style.LATER, chosen.size), strict=True):
         # faces of shells carry no polymer fraction of their own: each shell is drawn as it is
         r, phi = run.r_face.values[i], run.polymer_fraction.values[i]
         label = f"{float(run.t[i]):.2g}"

@@ -25,7 +25,7 @@ from gelpump.bead import lens
 from gelpump.finite_volume import NewtonSweep
 from gelpump.separation import observed
 from gelpump.separation.blocks import CORE, Divided, graded_core
-from gelpump.separation.coexistence import Coexistence, Surface
+from gelpump.separation.coexistence import Coexistence, OnePhase, Surface
 from gelpump.separation.energy import Lens
 from gelpump.separation.sharp import SKIN
 from gelpump.separation.shells import interpolated, polymer_fraction, require_sound
@@ -181,13 +181,18 @@ def solve(
     kept.append(np.full((whole.t.size, 2), np.nan))
     kept = [list(each) for each in kept]
     events: dict[str, float] = {}
+    stopped = ""
     if whole.attrs["stopped"]:
         events = {"birth_t": whole.stopped_t, "birth_radius": float(whole.radius[-1])}
-        _through(energy, times, cells, tolerance, skin, kept, events)
+        try:
+            _through(energy, times, cells, tolerance, skin, kept, events)
+        except (OnePhase, RuntimeError) as why:
+            stopped = str(why)
+    numerics = {"tolerance": tolerance, "skin": skin, "stopped": stopped}
     return observed.dataset(
         energy,
         *(np.array(each) for each in kept),
-        events | {"phi_initial": phi_initial, "tolerance": tolerance, "skin": skin},
+        events | {"phi_initial": phi_initial} | numerics,
     )
 
 

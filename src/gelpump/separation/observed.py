@@ -113,10 +113,9 @@ def passage(run: "xr.Dataset", R: float) -> float:
 
 def with_uncertainty(run: "xr.Dataset", coarse: "xr.Dataset") -> "xr.Dataset":
     """``run`` with when its front passes some dry radii, and by how much a ``coarse`` run, of half
-    the cells, a skin twice as thick and looser tolerances, differs: at least the error of ``run``.
+    the cells, a skin twice as thick and looser tolerances, differs: at least the error of ``run``;
+    nan where that stopped at once.
     """
-    import xarray as xr
-
     times = [[passage(each, R) for R in PASSAGES] for each in (run, coarse)]
     if np.isfinite(times).all():
         run = run.assign(
@@ -131,8 +130,11 @@ def with_uncertainty(run: "xr.Dataset", coarse: "xr.Dataset") -> "xr.Dataset":
         if event in run.attrs and event in coarse.attrs:
             doubt = abs(run.attrs[event] - coarse.attrs[event])
             run = run.assign_attrs({f"{event}_uncertainty": float(doubt)})
-    difference = xr.DataArray(run.radius - coarse.radius.interp(t=run.t))
-    return run.assign_attrs(radius_uncertainty=float(abs(difference).max()))
+    difference = np.nan
+    if coarse.t.size > 1:  # it may have stopped before
+        both = run.radius[run.t.values <= float(coarse.t[-1])]
+        difference = float(abs(both - coarse.radius.interp(t=both.t)).max())
+    return run.assign_attrs(radius_uncertainty=difference)
 
 
 def towards_sharp(runs: "list[xr.Dataset]", sharp: "xr.Dataset") -> "xr.Dataset":

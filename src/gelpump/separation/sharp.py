@@ -74,11 +74,10 @@ class Course:
         else:
             self.front.append((np.nan, np.nan))
 
-    def born_at_once(self, R: NDArray, r: NDArray, phi: float) -> None:
-        """The surface has no state of the first phase from the first instant."""
+    def begin(self, R: NDArray, r: NDArray, phi: float) -> None:
+        """The bead at t = 0, of which no stage is solved yet."""
         self.t, self.faces, self.surface = [0.0], [(R, r)], [phi]
         self.front = [(np.nan, np.nan)]
-        self.events = {"birth_t": 0.0, "birth_radius": float(r[-1])}
 
     def follow(self, stage: Whole | Divided, start: NDArray, tolerance: float):
         """March ``stage`` from its start until its margins end, or to the last time; R and r of
@@ -178,11 +177,11 @@ def solve(
 
     times: increasing from 0, in t_BMJ.  cells: of the core and of the skin.  tolerance: CVODE's,
     for the radii.  skin: what the front is born with, a share of the dry radius.  The dataset is
-    that of ``gelpump.separation.observed``.
+    that of ``gelpump.separation.observed``.  It ends early, and its attribute ``stopped`` says why,
+    where the initial state is not stable, a front would be born at a critical point, no bead is in
+    a state, or CVODE fails; else ``stopped`` is empty.
 
-    Raises ValueError for times, cells, skin or phi_initial that no bead has, OnePhase if the
-    initial state is not stable or a front would be born at a critical point, Unsound (a
-    RuntimeError) for a state that no bead is in, and RuntimeError when CVODE fails.
+    Raises ValueError for times, cells, skin or phi_initial that no bead has.
     """
     times = np.asarray(times, dtype=float)
     if times.ndim != 1 or times.size < 2 or times[0] != 0 or not np.all(np.diff(times) > 0):
@@ -191,21 +190,37 @@ def solve(
         raise ValueError(f"cells = {cells}: must be at least 4 of each")
     if not LEAST_SKIN <= skin <= MOST_SKIN:
         raise ValueError(f"skin = {skin}: must be {LEAST_SKIN} to {MOST_SKIN} of the dry radius")
+    course = Course(energy, times)
+    stopped = ""
+    try:
+        _through(course, phi_initial, cells, tolerance, skin)
+    except (OnePhase, RuntimeError) as why:
+        stopped = str(why)
+        if not course.t:
+            R = clustered_outside(sum(cells))
+            course.begin(R, phi_initial ** (-1 / 3) * R, phi_initial)
+    return course.dataset(phi_initial=phi_initial, tolerance=tolerance, skin=skin, stopped=stopped)
+
+
+def _through(course: Course, phi_initial: float, cells: tuple[int, int], tolerance: float, skin):
+    """Stage by stage to the last time; OnePhase or RuntimeError if one cannot be solved."""
+    energy = course.energy
     start = float(phi_initial) ** (-1 / 3)
     phase = first_phase(energy, phi_initial)
     other = "dry" if phase == "swollen" else "swollen"
     high = BEYOND * max(
         start, energy.gel.equilibrium_polymer_fraction(energy.temperature) ** (-1 / 3)
     )
-    course = Course(energy, times)
     bare = sum(cells)
     R = clustered_outside(bare)
     if surface_margin(energy, start, phase) > 0.0:
         whole = Whole(energy, Surface.between(energy, phase, 1.0, high, start), bare)
         R, r = course.follow(whole, start * R[1:], tolerance)
     else:
+        # the surface has no state of the first phase from the first instant
         r = start * R
-        course.born_at_once(R, r, phi_initial)
+        course.begin(R, r, phi_initial)
+        course.events = {"birth_t": 0.0, "birth_radius": float(r[-1])}
     if course.unfinished:
         surface = Surface.between(energy, other, 1.0, high, float(r[-1]))
         critical = critical_hoop_stretch(energy, 1.0, high)
@@ -223,7 +238,6 @@ def solve(
     if course.unfinished:
         whole = Whole(energy, surface, bare)
         course.follow(whole, whole.between(R, r), tolerance)
-    return course.dataset(phi_initial=phi_initial, tolerance=tolerance, skin=skin)
 
 
 def first_phase(energy, phi: float) -> str:

@@ -11,9 +11,11 @@ TRAVELS = (0.9, 0.1)  # dry radii between which the front is looked at
 
 
 def runs(e):
-    """The bead `separating` in both models; None if it was not solved."""
+    """The bead `separating` in both models; None where either has no front that travels."""
     names = [f"separation_separating_{model}" for model in MODELS]
-    return [e.data[name] for name in names] if all(name in e.data for name in names) else None
+    found = [e.data[name] for name in names if name in e.data]
+    travel = len(found) == len(names) and all(travelling(run).t.size > 1 for run in found)
+    return found if travel else None
 
 
 def travelling(run):

@@ -65,7 +65,7 @@ def _profiles(ax, run):
     wanted = np.linspace(0.95, 0.2, PROFILES)
     met = np.isfinite(front)
     if not met.any():
-        said = run.attrs["stopped"] or "it goes on in one phase"
+        said = run.attrs.get("stopped") or "it goes on in one phase"
         ax.text(0.5, 0.5, textwrap.fill(f"No front travels: {said}.", 34), ha="center", va="center",
                 transform=ax.transAxes, fontsize=7)  # fmt: skip
         ax.set_axis_off()

@@ -124,8 +124,8 @@ def source(code: str) -> str:
     """The source of a statement's function, by its full name."""
     import inspect
 
-    from gelpump.statements import beads, flows, materials, tubes
+    from gelpump.statements import beads, flows, heat, materials, tubes
 
     module, _, function = code.rpartition(".")
-    found = {each.__name__: each for each in (beads, flows, materials, tubes)}[module]
+    found = {each.__name__: each for each in (beads, flows, heat, materials, tubes)}[module]
     return inspect.getsource(getattr(found, function)).rstrip()

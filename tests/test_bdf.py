@@ -22,19 +22,19 @@ def riccati(t, guess, alpha, history):
     return (-alpha + np.sqrt(alpha**2 - 4.0 * history)) / 2.0
 
 
+def stepped(advance, end, order=2, tolerance=1e-5, first_step=1e-4):
+    """From y(0) = 1 to ``end``."""
+
+    def norm(y, dy):
+        return float(np.abs(dy).max())
+
+    options = {"order": order, "tolerance": tolerance, "first_step": first_step}
+    return bdf.integrate(advance, np.ones(1), end, error_norm=norm, **options)
+
+
 def march(order, tolerance):
     """Steps taken and error at t = 3 for dy/dt = -y^2, y(0) = 1, whose solution is 1/(1 + t)."""
-    steps = list(
-        bdf.integrate(
-            riccati,
-            np.ones(1),
-            3.0,
-            order=order,
-            tolerance=tolerance,
-            first_step=1e-6,
-            error_norm=lambda y, dy: float(np.abs(dy).max()),
-        )
-    )
+    steps = list(stepped(riccati, 3.0, order, tolerance, first_step=1e-6))
     assert steps[-1].time == 3.0
     return len(steps), abs(float(steps[-1].solution[0]) - 0.25), steps
 
@@ -65,15 +65,7 @@ def test_a_newton_failure_shortens_the_step():
             raise bdf.NotConverged
         return riccati(t, guess, alpha, history)
 
-    *_, last = bdf.integrate(
-        fragile,
-        np.ones(1),
-        3.0,
-        order=2,
-        tolerance=1e-5,
-        first_step=1e-4,
-        error_norm=lambda y, dy: float(np.abs(dy).max()),
-    )
+    *_, last = stepped(fragile, 3.0)
     assert len(failures) == 3
     assert float(last.solution[0]) == pytest.approx(0.25, abs=1e-3)
 
@@ -84,15 +76,7 @@ def test_a_barrier_is_closed_in_on():
             raise bdf.Barrier
         return riccati(t, guess, alpha, history)
 
-    steps = bdf.integrate(
-        walled,
-        np.ones(1),
-        3.0,
-        order=2,
-        tolerance=1e-5,
-        first_step=1e-4,
-        error_norm=lambda y, dy: float(np.abs(dy).max()),
-    )
+    steps = stepped(walled, 3.0)
     times = [0.0]
     with pytest.raises(bdf.Barrier):
         times.extend(step.time for step in steps)
@@ -105,14 +89,4 @@ def test_a_step_that_never_converges_ends_with_an_error():
         raise bdf.NotConverged
 
     with pytest.raises(RuntimeError, match="time step fell"):
-        list(
-            bdf.integrate(
-                hopeless,
-                np.ones(1),
-                1.0,
-                order=2,
-                tolerance=1e-5,
-                first_step=1e-4,
-                error_norm=lambda y, dy: 0.0,
-            )
-        )
+        list(stepped(hopeless, 1.0))

@@ -98,3 +98,10 @@ def test_the_tutorial_runs_in_an_empty_folder(tmp_path):
     ):
         assert line in run.stdout.splitlines()
     assert list(tmp_path.iterdir()) == []
+
+
+def test_no_module_is_long_without_a_reason():
+    sources = Path(__file__).resolve().parents[1] / "src/gelpump"
+    texts = {file: file.read_text("utf-8") for file in sources.rglob("*.py")}
+    long = {file for file, text in texts.items() if text.count("\n") > 300}
+    assert long == {file for file, text in texts.items() if "\nLonger than 300 lines: " in text}

@@ -4,8 +4,8 @@ import pytest
 
 from gelpump.article.markup import mathematics, runs, typographic
 from gelpump.article.telling import extent, listed
-from gelpump.report.content import Claim, Disagreement, Figure
 from gelpump.report.notation import from_plain
+from gelpump.report.records import Claim, Disagreement, Figure
 
 
 def figure(statuses, ledger=()):

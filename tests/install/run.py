@@ -1,8 +1,9 @@
 """The library as others install it: wheel and sdist, in empty environments, without Snakemake.
 
 ``python tests/install/run.py`` builds both, installs the wheel with the newest versions allowed,
-the sdist with the oldest (oldest.txt), and runs smoke.py in each from an empty folder.  The plugins
-of Snakemake, packages of their own, are built, installed and imported.
+the sdist with the oldest (oldest.txt), and runs smoke.py in each from an empty folder, and with the
+newest the tutorial.  The plugins of Snakemake, packages of their own, are built, installed and
+imported.
 """
 
 import os
@@ -52,12 +53,24 @@ def smoke(folder: Path, name: str, *what: str | Path) -> str:
     return f"{name}: {run(python, HERE / 'smoke.py', cwd=empty).strip()}"
 
 
+def tutorial(folder: Path, wheel: Path) -> str:
+    """The tutorial's last line, from an empty folder, in the environment of the newest versions."""
+    python = folder / "newest" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    run(python, "-m", "pip", "install", "-q", f"{wheel}[design]", cwd=folder)
+    absent = "import importlib.util as u; assert u.find_spec('snakemake') is None"
+    run(python, "-c", absent, cwd=folder)
+    empty = folder / "tutorial-empty"
+    empty.mkdir()
+    return run(python, PROJECT / "docs/tutorial.py", cwd=empty).splitlines()[-1]
+
+
 def main() -> None:
     """Build, install, try."""
     with tempfile.TemporaryDirectory(prefix="install-") as scratch:
         folder = Path(scratch)
         wheel, sdist, plugins = built(folder)
         print(smoke(folder, "newest", wheel), flush=True)
+        print("tutorial:", tutorial(folder, wheel), flush=True)
         print(smoke(folder, "oldest", sdist, "-c", HERE / "oldest.txt"), flush=True)
         python = environment(folder / "plugins")
         run(python, "-m", "pip", "install", "-q", *plugins, cwd=folder)

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from gelpump.article.markup import caption, plain, runs
-from gelpump.report.content import Content, Figure
 from gelpump.report.notation import from_plain
+from gelpump.report.records import Content, Figure
 
 # what a reader should know first, in this order
 FOREMOST = (

@@ -27,6 +27,8 @@ dS_i being the distance of its shells in R^2, has a tridiagonal Jacobian that *i
 diffusion operator, with face conductance D phi^2 / dR^3: one FiPy sweep is one Newton step,
 quadratically convergent, surface condition and moving radius included.  Several meshes of the same
 bead advance in the same sweeps.
+
+Longer than 300 lines: equation, discretisation and Newton's matrix are read side by side.
 """
 
 from collections.abc import Sequence

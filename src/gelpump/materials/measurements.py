@@ -2,6 +2,8 @@
 
 Nothing is guessed: separator, decimal sign and units are those that leave one
 reading of the whole table, or are told; else the table is refused.
+
+Longer than 300 lines: each refusal of a table stands where it is read.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from gelpump.figures import style
 from gelpump.report import markup, notation
-from gelpump.report.content import Content
+from gelpump.report.records import Content
 
 if TYPE_CHECKING:
     import jinja2

@@ -4,6 +4,8 @@ Of solutions it comes from their refinement in space and time; of closed formula
 quadratures from these themselves.  What is derived from such numbers inherits it to first order.
 A number is told as quantity, value, uncertainty, what that was taken from, "dataset: variables"
 and, unless it is scaled, its unit; value and uncertainty may be several.
+
+Longer than 300 lines: a list of the figures' numbers, one short function a figure.
 """
 
 from collections.abc import Iterator, Mapping, Sequence

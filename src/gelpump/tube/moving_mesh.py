@@ -28,6 +28,8 @@ the Jacobian is exact, until the sum over the cells, and with it the water, is c
 rounding; what crosses front, edges and sections is kept in books (`gelpump.tube.ledger`).
 
 It is one class, the residual with its Jacobian and what is read off them, hence its length.
+
+Longer than 300 lines: residual, Jacobian and mesh of one step are read side by side.
 """
 
 from __future__ import annotations

@@ -155,6 +155,7 @@ class Designer extends Explorer {
         response: "response_time", front: "travel_time", pumped: "final_pumped_volume_conserving", inPrint: "final_pumped_volume_printed", flow: "final_flow_far_conserving", width: "final_front_width",
       };
       for (const [name, key] of Object.entries(head)) this.number(name, numbers[key] ? this.said(key) : "not told");
+      if (device.model.late) this.number("pumped", `${this.said("final_pumped_volume_conserving")}, ${this.direction()}`);
       this.element.querySelector("[data-lights]").replaceChildren(...device.lights.map((each) => this.lightRow(each)));
       this.element.querySelector("[data-table]").replaceChildren(...Object.keys(numbers).map((key) => this.numberRow(key)));
       this.element.querySelector("[data-late]").textContent = device.model.late
@@ -173,12 +174,15 @@ class Designer extends Explorer {
     return share >= 0.005 ? `${told} ± ${printed(share, 2)} %` : told;
   }
 
+  direction() {
+    return `${this.device.numbers.final_pumped_volume_conserving[0] > 0 ? "away from" : "towards"} the heated end`;
+  }
+
   summary() {
     if (!this.device) return this.refusal;
-    const { numbers, lights, model } = this.device;
+    const { lights, model } = this.device;
     const count = (light) => lights.filter((each) => each.light === light).length;
-    const volume = numbers.final_pumped_volume_conserving;
-    const pumped = model.late ? ` Pumps ${this.said("final_pumped_volume_conserving")} ${volume[0] > 0 ? "away from" : "towards"} the heated end, per pulse and side.` : "";
+    const pumped = model.late ? ` Pumps ${this.said("final_pumped_volume_conserving")} ${this.direction()}, per pulse and side.` : "";
     return `Responds in ${this.said("response_time")}.${pumped} Lights: ${count("green")} green, ${count("amber")} amber, ${count("red")} red.`;
   }
 
@@ -316,7 +320,7 @@ class Designer extends Explorer {
       const [Z, Phi1] = [inside.map(([z]) => z), inside.map(([, Phi]) => Phi)];
       drawWall(context, at, { Z, Phi1, Phi_inf: tube.Phi_inf, ends: range, radii: [micrometre, tube.ell * micrometre] });
       line(context, at, [front, front], [-2 * micrometre, 2 * micrometre], { colour: data.colours.nonlinear, width: 1.4, dash: [6, 4] });
-      words(context, "front", at.x(front) + 5, at.box.top + 9, { colour: themed("ink") });
+      words(context, "front", at.x(front) - 5, at.box.top + 10, { colour: themed("ink"), align: "right" });
       const start = Math.min(at.x(front) + 24, at.box.right - 70);
       arrow(context, start, at.y(0), 46, 0, { colour: themed("link"), width: 2.4 });
     });

@@ -116,27 +116,18 @@ def _printed(tubes, Le, tau):
     """ell^2 Integral V dtau far ahead, as printed, and its relative uncertainty."""
     tau_99 = deswelling_time(tubes)
     then, is_wave = _then(tau, tau_99)
-    volumes, doubts = [], []
+    found = []
     for nodes in (NODES, FEWER_NODES):
-        volume = doubt = 0.0
-        for point, weight in zip(*leggauss(nodes), strict=True):
-            root = np.sqrt(then) * (1 + point) / 2
-            now = root**2 + wave.DELAY * tau_99
-            with np.errstate(all="ignore"):  # early, a wave so fast has no A that could be told
-                late = wave.late_pulse(tubes, Le, now, "printed")
-            part = np.sqrt(then) * weight * root * late.values["V_far"]
-            volume = volume + part
-            doubt = doubt + part * np.minimum(late.uncertainty["V_far"], 1)
-        volumes.append(tubes.ell**2 * volume)
-        doubts.append(doubt / volume)
-    error = doubts[0] + np.abs(volumes[1] / volumes[0] - 1)
-    return volumes[0], np.where(is_wave, error, np.inf)
-
-
-def _then(tau, tau_99) -> tuple[NDArray, NDArray]:
-    """When the front had the speed that its wave has now, and whether there is a wave yet."""
-    then = np.asarray(tau - wave.DELAY * tau_99)
-    return np.where(then > 0, then, tau), then > 0
+        point, weight = (each.reshape(-1, *[1] * then.ndim) for each in leggauss(nodes))
+        root = np.sqrt(then) * (1 + point) / 2
+        with np.errstate(all="ignore"):  # early, a wave so fast has no A that could be told
+            late = wave.late_pulse(tubes, Le, root**2 + wave.DELAY * tau_99, "printed")
+        part = np.sqrt(then) * weight * root * late.values["V_far"]
+        volume = part.sum(axis=0)
+        doubt = (part * np.minimum(late.uncertainty["V_far"], 1)).sum(axis=0) / volume
+        found.append((tubes.ell**2 * volume, doubt))
+    (fine, doubt), (coarse, _) = found
+    return fine, np.where(is_wave, doubt + np.abs(coarse / fine - 1), np.inf)
 
 
 def shape(M, Pi_ratio, Phi_inf, c) -> tuple[NDArray, NDArray, NDArray, NDArray, NDArray]:

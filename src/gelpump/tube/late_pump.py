@@ -130,7 +130,9 @@ def _printed(tubes, Le, tau):
     return fine, np.where(is_wave, doubt + np.abs(coarse / fine - 1), np.inf)
 
 
-def shape(M, Pi_ratio, Phi_inf, c) -> tuple[NDArray, NDArray, NDArray, NDArray, NDArray]:
+def shape(
+    M: ArrayLike, Pi_ratio: ArrayLike, Phi_inf: ArrayLike, c: ArrayLike
+) -> tuple[NDArray, NDArray, NDArray, NDArray, NDArray]:
     """Stretch and flux at the front of conserving waves, and by how much the fluxes of its two
     sides disagree there; I_1 and I_3 behind it, and ahead."""
     given = [np.asarray(each, float) for each in np.broadcast_arrays(M, Pi_ratio, Phi_inf, c)]

@@ -37,14 +37,14 @@ DERIVED = "gelpump.tube.stefan"
 def latent_heat(text: str, density: Any, repeat_unit: Any) -> Any:
     """Heat per dry volume of what calorimetry gives in ``text``.
 
-    ValueError if it is neither a heat per mass nor per mole, or negative.
+    ValueError if it is neither a heat per mass nor per mole, or not positive.
     """
     try:
         value = (units.parsed(text, "J/kg") * density).to("J/m^3")
     except ValueError:
         value = (units.parsed(text, "J/mol") * density / repeat_unit).to("J/m^3")
-    if value.magnitude < 0:
-        raise ValueError("is negative: give the heat that the collapse takes up")
+    if not value.magnitude > 0:
+        raise ValueError("is not greater than 0, as the heat that the collapse takes up is")
     return value
 
 
@@ -60,7 +60,7 @@ def given_latent_heat(block: dict, given: dict) -> None:
         except ValueError as problem:
             raise ValueError(
                 f"enthalpy = {text!r}: {problem}; must be a heat per dry mass or per mole of "
-                "repeat units, not negative, such as '50 J/g' or '5.5 kJ/mol', or 'unknown'"
+                "repeat units, such as '50 J/g' or '5.5 kJ/mol', or 'unknown'"
             ) from problem
         given["latent_heat"] = heat
     if block["kind"] == "bead":

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
 import yaml
 from conventions import require_cf
 
@@ -210,21 +209,31 @@ def test_a_bead_that_separates_is_told_of_its_front():
     assert front.BEAD_NOTE in sheet.notes(data)
 
 
-def test_a_tube_that_separates_is_told_of_a_bead_as_thick_as_its_wall(monkeypatch):
-    """Beside what is solved of the tube, which is not asked for here."""
-    from gelpump.design import solve
-
+def test_a_tube_that_separates_is_told_of_a_bead_as_thick_as_its_wall(tmp_path):
+    """From a design's file to its sheet: wall over front speed, and nothing more of the tube."""
     step = {"gel": "HHT", "critical_temperature": "305.5 K", "heating_step": "3 K"}
-    tube, bead = (description.read(PROJECT / f"config/designs/{name}.yaml")
-                  for name in ("microtube", "bead"))  # fmt: skip
-    monkeypatch.setattr(solve, "solve_tube", lambda design, numerics: (xr.Dataset(), []))
-    data, told = solve.solve(description.checked("tube", tube | step, GELS), TUBE)
+    found, data = solved("microtube", TUBE, **step)
     same = {"radius": "25 um", "permeability": "1e-15 m^2"}
-    expected, _ = front.front_of(description.checked("bead", bead | step | same, GELS))
-    assert [each.key for each in told] == [each.key for each in expected]
-    for mine, theirs in zip(told, expected, strict=True):
-        assert mine.value == pytest.approx(theirs.value, rel=1e-9)
-    assert data.attrs["front_note"] == front.TUBE_NOTE
+    bead = description.read(PROJECT / "config/designs/bead.yaml") | step | same
+    expected, _ = front.front_of(description.checked("bead", bead, GELS))
+    assert [each.key for each in expected] == [
+        "separation_time", "drying_front_time", "drying_front_speed"
+    ]  # fmt: skip
+    for each in expected:
+        assert float(data[each.key]) == pytest.approx(each.value, rel=1e-9)
+    wall = float(data.wall)
+    assert wall == pytest.approx(found.si("a_1") - found.si("a_0"))
+    travel = float(data.drying_front_time - data.separation_time)
+    assert float(data.drying_front_speed) == pytest.approx(0.5 * wall / travel)
+    for claimed in ("response_time", "recovery_time", "final_pumped_volume_conserving"):
+        assert claimed not in data
+    assert int(data.light_one_phase) == 2
+    assert front.TUBE_NOTE in sheet.notes(data)
+    assert front.NO_TUBE in sheet.html(data, "<svg/>")
+    with style.styled():
+        style.save(drawing.page(data), [tmp_path / "sheet.pdf"])
+    netcdf.write(data, tmp_path / "tube.nc", "a tube that separates", {})
+    assert list(dataset.csv_rows(netcdf.read(tmp_path / "tube.nc")))
 
 
 def test_a_front_that_is_not_solved_is_no_number():

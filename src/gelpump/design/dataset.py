@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from gelpump.materials.measured import Fit
 
 
+ONE_PHASE_ONLY = "tau_99", "response_time", "recovery_time"
+
+
 def assemble(
     design: Design,
     numerics: Mapping[str, Any],
@@ -30,7 +33,9 @@ def assemble(
     ``fit`` is its fit, whose warnings are said.
     """
     data, measured = solve(design, numerics)
-    found = results(design) + measured
+    # a tube that is not solved has no times of a gel in one phase either
+    left_out = ONE_PHASE_ONLY if "unsolved" in data.attrs else ()
+    found = [each for each in results(design) if each.key not in left_out] + measured
     lights = [
         *([validity.fitted(fit)] if fit else []),
         *validity.before_solving(design),

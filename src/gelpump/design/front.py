@@ -27,6 +27,7 @@ BEAD_NOTE = (
     "Where phases separate the profiles drawn end. A sharp front then dries the bead from its "
     "surface inwards: its times are those of the fully nonlinear bead (docs/separation.md)."
 )
+NO_TUBE = "dry and swollen gel part in the wall: a slender tube has one phase, none is solved"
 TUBE_NOTE = (
     "Dry and swollen gel part in this wall, which no slender tube has. No front in a tube is "
     "solved: what is told is a bead as thick as the wall, half the thickness over its front's "
@@ -34,10 +35,8 @@ TUBE_NOTE = (
 )
 
 
-def separates(design: Design, stopped: str) -> bool:
-    """Whether phases part: a bead's solution ``stopped``, or D < 0 on the way of a tube's gel."""
-    if design.kind == "bead":
-        return bool(stopped)
+def separates(design: Design) -> bool:
+    """Whether phases part in a tube: D < 0 on the way of its gel."""
     return design.material.energy_based and smallest_diffusivity(design)[0] <= 0
 
 

@@ -63,11 +63,11 @@ def notes(data: xr.Dataset) -> list[str]:
     keys = ("gel_warnings", "front_note", "pump_note", "own_gel_note", "cycle_note", "gel_note")
     found = [data.attrs[key] for key in keys if key in data.attrs]
     if "wanted_response_time" in data and "response_time" not in data:
-        why = data.attrs.get("stopped") or "it is slower than we waited for"
-        found.append(
-            "There is no response time to compare with the one wanted: the bead did not make 99 % "
-            f"of its change of radius ({why})."
+        why = data.attrs.get("unsolved") or (
+            "the bead did not make 99 % of its change of radius ("
+            f"{data.attrs.get('stopped') or 'it is slower than we waited for'})"
         )
+        found.append(f"There is no response time to compare with the one wanted: {why}.")
     if dataset.answers(data):
         said = "Ranges are of one parameter at a time, the others as designed"
         if data.attrs["kind"] == "tube":

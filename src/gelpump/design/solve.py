@@ -14,7 +14,7 @@ import xarray as xr
 from gelpump.design import units
 from gelpump.design.description import Design
 from gelpump.design.device import scales
-from gelpump.design.front import front_of, separates
+from gelpump.design.front import NO_TUBE, front_of, separates
 from gelpump.design.own_gel import own_gel
 from gelpump.design.programme import solved
 from gelpump.design.refined import levels, variable
@@ -27,8 +27,11 @@ BEAD_CHANGE = 0.99
 
 def solve(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Result]]:
     """The solved device, and the numbers measured on it; of a gel that separates, its front's."""
-    solver = solve_tube if design.kind == "tube" else solve_bead
-    data, found = solver(design, numerics)
+    parts = design.kind == "tube" and separates(design)
+    if parts:
+        data, found = xr.Dataset(attrs={"unsolved": NO_TUBE}), []
+    else:
+        data, found = (solve_tube if design.kind == "tube" else solve_bead)(design, numerics)
     if design.kind == "tube" and design.material.energy_based:
         own, note = own_gel(design)
         found = found + own
@@ -37,7 +40,7 @@ def solve(design: Design, numerics: Mapping) -> tuple[xr.Dataset, list[Result]]:
         more, own, note = solved(design)
         data = data.assign(more).assign_attrs({"cycle_note": note} if note else {})
         found = found + own
-    if separates(design, data.attrs.get("stopped", "")):
+    if parts or data.attrs.get("stopped"):
         front, note = front_of(design)
         return data.assign_attrs(front_note=note), found + front
     return data, found

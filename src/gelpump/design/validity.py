@@ -236,7 +236,7 @@ def measured_linearity(found: Mapping[str, Result]) -> Light | None:
 
 def after_solving(design: Design, data: xr.Dataset) -> list[Light]:
     """The lights of a solved tube, at the time when the front has travelled the heated length."""
-    if design.kind == "bead":
+    if design.kind == "bead" or "unsolved" in data.attrs:
         return []
     share = float((data.departed_length / data.front_position)[-1])
     peak = max(

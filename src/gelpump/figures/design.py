@@ -104,6 +104,12 @@ def _wanted(fig, y, data):
 
 def _draw(fig, data, grid=None):
     grid = fig.add_gridspec(2, 2, height_ratios=[1.0, 1.15]) if grid is None else grid
+    if "unsolved" in data.attrs:
+        ax = fig.add_subplot(grid[:, :])
+        ax.set_axis_off()
+        ax.text(0.5, 0.5, textwrap.fill(f"No picture: {data.attrs['unsolved']}.", 60),
+                ha="center", va="center", color=style.GREY)  # fmt: skip
+        return
     top = fig.add_subplot(grid[0, :])
     left, right = fig.add_subplot(grid[1, 0]), fig.add_subplot(grid[1, 1])
     if data.attrs["kind"] == "tube":

@@ -25,6 +25,8 @@ def test_the_example_runs():
     radius = scope["run"].radius.values
     assert abs(radius[0] - scope["phi"] ** (-1 / 3)) < 1e-12
     assert abs(radius[-1] - 2.596) < 5e-3
+    assert abs(scope["front"].completion_t - 0.2629) < 3e-3
+    assert scope["front"].front_dry_radius.diff("t").max() <= 0
 
 
 def test_the_gel_of_the_readme_is_a_valid_configuration():

@@ -190,6 +190,16 @@ def test_the_bead_shows_the_numbers_of_its_dataset(show, built):
     assert len(pictures) == 9
 
 
+def test_a_bead_goes_on_to_the_end(show, built):
+    browser = show()
+    control(browser, "explore-bead", "case", "separating, to the end")
+    bead = netcdf.read(built.path / "results/data/separation_separating_lens.nc")
+    control(browser, "explore-bead", "t", 150)
+    told = number(shown(browser, "explore-bead", "lens-radius"))
+    assert told == pytest.approx(float(bead.radius[150]), rel=6e-4)
+    assert shown(browser, "explore-bead", "nonlinear-radius") != "stopped"
+
+
 def test_a_bead_whose_phases_separate_says_so(show):
     browser = show()
     control(browser, "explore-bead", "case", "separating")

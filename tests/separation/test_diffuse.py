@@ -94,7 +94,7 @@ def test_below_separation_it_tends_to_the_bead_of_one_phase():
 def reached(flow, start, times):
     """The steps within which the times lie."""
     due = list(times)
-    for step in diffuse.steps(flow, start, times[-1], 1e-7):
+    for step in diffuse.steps(flow, start, times[-1]):
         if due and due[0] <= step.time:
             due.pop(0)
             yield step
@@ -121,7 +121,7 @@ def test_a_run_on_too_few_shells_ends_in_words():
     """Its mesh would be refused before; here it is what is seen at the steps that ends it."""
     energy = ENERGIES["nonlinear"](HHT, 308.0)
     bead = diffuse.Bead(energy, diffuse.kappa_of(energy, 0.02), 100)
-    steps = diffuse.steps(bead, SWOLLEN ** (-1 / 3) * bead.R[1:], 0.3, 1e-7)
+    steps = diffuse.steps(bead, SWOLLEN ** (-1 / 3) * bead.R[1:], 0.3)
     with pytest.raises(watch.UnderResolved, match="cells across a width"):
         watch.course(energy, bead, steps, np.array([0.0, 0.3]), layers=False)
 

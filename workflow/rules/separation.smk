@@ -15,15 +15,27 @@ SEPARATED = [
 ]
 
 
+def sharp_of(wildcards):
+    """The sharp front of a case, where it is solved."""
+    unsolved = f"{wildcards.case}_{wildcards.model}" in SEPARATION["unsolved"]
+    return [] if unsolved else [f"{DATA}/separation_{wildcards.case}_{wildcards.model}.nc"]
+
+
 rule separation:
     input:
         SEPARATED,
-        "results/separation/widths.nc",
+        [
+            f"{DATA}/separation_{case}_{model}.nc"
+            for case in SEPARATION["cases"]
+            for model in ("nonlinear", "lens")
+            if f"{case}_{model}" not in SEPARATION["unsolved"]
+        ],
         expand(
-            f"{DATA}/separation_{{case}}_{{model}}.nc",
-            case=SEPARATION["cases"],
+            "results/separation/widths_{case}_{model}.nc",
+            case=[SEPARATING, *SEPARATION["widths"]["cases"]],
             model=["nonlinear", "lens"],
         ),
+        expand("results/separation/figX7_hysteresis.{suffix}", suffix=["pdf", "png", "svg", "csv"]),
     localrule: True
 
 
@@ -84,17 +96,48 @@ rule coexistence:
 
 rule separation_widths:
     input:
-        sharp=f"{DATA}/separation_{SEPARATING}_nonlinear.nc",
+        sharp=sharp_of,
         src=modules("separation_widths"),
     output:
-        "results/separation/widths.nc",
+        "results/separation/widths_{case}_{model}.nc",
     log:
-        "results/logs/separation_widths.log",
+        "results/logs/separation_widths_{case}_{model}.log",
     benchmark:
-        "results/benchmarks/separation_widths.tsv"
+        "results/benchmarks/separation_widths_{case}_{model}.tsv"
+    wildcard_constraints:
+        model="nonlinear|lens",
     params:
-        case=config["beads"][SEPARATING] | {"end": SEPARATION["drawn"][SEPARATING]},
-        gel=config["gels"][config["beads"][SEPARATING]["gel"]],
+        case=separation_case,
+        gel=lambda wildcards: config["gels"][separation_case(wildcards)["gel"]],
         widths=SEPARATION["widths"],
+        second=lambda wildcards: (wildcards.case, wildcards.model) == (SEPARATING, "lens"),
     script:
         "../scripts/separation_widths.py"
+
+
+rule separation_hysteresis:
+    input:
+        src=modules("separation_hysteresis"),
+    output:
+        "results/separation/hysteresis_{gel}.nc",
+    log:
+        "results/logs/separation_hysteresis_{gel}.log",
+    benchmark:
+        "results/benchmarks/separation_hysteresis_{gel}.tsv"
+    params:
+        gel=lambda wildcards: config["gels"][wildcards.gel],
+        loop=lambda wildcards: SEPARATION["loops"][wildcards.gel],
+    script:
+        "../scripts/separation_hysteresis.py"
+
+
+rule figX7_hysteresis:
+    input:
+        loops=expand("results/separation/hysteresis_{gel}.nc", gel=SEPARATION["loops"]),
+        src=modules("figX7_hysteresis"),
+    output:
+        expand("results/separation/figX7_hysteresis.{suffix}", suffix=["pdf", "png", "svg", "csv"]),
+    log:
+        "results/logs/figX7_hysteresis.log",
+    script:
+        "../scripts/figX7_hysteresis.py"

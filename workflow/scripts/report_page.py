@@ -21,6 +21,10 @@ with job(snakemake) as provenance:
         for name, block in read(file)["gels"].items()
         if name not in params.config["gels"]
     }
+    files_of = {case: f"bead_{case}" for case in cases}
+    for case in params.config["separation"]["drawn"]:
+        files_of[f"{case}, to the end"] = f"separation_{case}"
+        cases = cases | {f"{case}, to the end": cases[case] | {"published_times": []}}
     explorers = {
         "tube": embedded.tubes(
             netcdf.read(files.pulse), netcdf.read(files.fit), netcdf.read(files.conserving)
@@ -28,10 +32,10 @@ with job(snakemake) as provenance:
         "beads": embedded.beads(
             {
                 case: {
-                    model: netcdf.read(f"results/data/bead_{case}_{model}.nc")
+                    model: netcdf.read(f"results/data/{stem}_{model}.nc")
                     for model in ("lens", "nonlinear")
                 }
-                for case in cases
+                for case, stem in files_of.items()
             },
             cases,
             params.published,

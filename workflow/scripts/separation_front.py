@@ -17,7 +17,8 @@ with job(snakemake) as provenance:
     start, end = case["temperature_initial"], case["temperature_final"]
     phi = initial_polymer_fraction(gel, case)
     times = case["end"] * np.linspace(0.0, 1.0, numerics["output_times"]) ** 2
-    cells, skin = tuple(numerics["cells"]), numerics["skin"]
+    cells = tuple(numerics["cells_lens" if model == "lens" else "cells"])
+    skin = numerics["skin"]
 
     def run(cells, skin, factor):
         if model == "lens" and start < end:

@@ -1,4 +1,4 @@
-"""Rule separation_widths: the separating bead with interfaces, towards the sharp limit."""
+"""Rule separation_widths: a bead with interfaces of three widths, towards the sharp limit."""
 
 from _helpers import job
 
@@ -8,23 +8,28 @@ with job(snakemake) as provenance:
     from gelpump import netcdf
     from gelpump.bead.production import initial_polymer_fraction
     from gelpump.materials import from_config
-    from gelpump.separation import diffuse, observed
-    from gelpump.separation.energy import Nonlinear
+    from gelpump.separation import diffuse, diffuse_lens, limit
+    from gelpump.separation.energy import ENERGIES
 
-    case, widths = snakemake.params.case, snakemake.params.widths
-    gel = from_config(case["gel"], snakemake.params.gel)
-    energy = Nonlinear(gel, case["temperature_final"])
+    case, widths, model = snakemake.params.case, snakemake.params.widths, snakemake.wildcards.model
+    gel, end = from_config(case["gel"], snakemake.params.gel), case["temperature_final"]
     phi = initial_polymer_fraction(gel, case)
     times = np.linspace(0.0, case["end"], 601)
     runs = []
-    for width, cells in sorted(widths.values(), reverse=True):
-        runs.append(diffuse.solve(energy, phi, times, int(cells), width=width))
-        print(runs[-1].attrs)
-    dataset = observed.towards_sharp(runs, netcdf.read(snakemake.input.sharp))
+    for width, cells in sorted(widths["shells"], reverse=True):
+        runs.append(diffuse.solve(ENERGIES[model](gel, end), phi, times, cells, width=width))
+        print(runs[-1].attrs, flush=True)
+    sharp = netcdf.read(snakemake.input.sharp[0]) if snakemake.input.sharp else None
+    dataset = limit.towards(runs, sharp)
+    if snakemake.params.second:
+        fixed = {"width": width, "tolerance": widths["fipy_tolerance"]}
+        other = diffuse_lens.solve(gel, end, phi, times, widths["fipy_cells"], **fixed)
+        dataset = dataset.assign_attrs(limit.between_solvers(runs[-1], other))
+        print(dataset.attrs)
     netcdf.write(
         dataset,
         snakemake.output[0],
-        "the separating bead with interfaces of several widths, fully nonlinear",
+        f"{snakemake.wildcards.case} bead with interfaces of several widths, {model}",
         {"case": case, "gel": snakemake.params.gel, "widths": widths},
         provenance,
     )

@@ -18,7 +18,8 @@ STRETCH = "l_t [1]"
 
 def draw(material: "xr.Dataset", phases: "xr.Dataset") -> Figure:
     """(a) Plane of temperature and polymer fraction: LENS's D < 0 and both models' coexistence;
-    (b) T*(a) of both models, and the least hoop stretch at which the nonlinear bead has a front.
+    (b) T*(a) of both models, the temperature from which the core decomposes, and the least hoop
+    stretch at which the nonlinear bead has a front.
 
     Datasets of ``materials.tables`` and ``gelpump.separation.phases``.
     """
@@ -52,6 +53,9 @@ def draw(material: "xr.Dataset", phases: "xr.Dataset") -> Figure:
         right.plot(loss.values[known], loss.radius.values[known], color=colour, label=name)
         columns = {Quantity.TEMPERATURE: loss.values[known], RADIUS: loss.radius.values[known]}
         style.tell(right, "b", f"T* {model}", columns)
+    core, a = phases.core_loss_temperature.values, phases.radius.values
+    right.plot(core, a, ":", color="black", label="$D = 0$ in the core")
+    style.tell(right, "b", "D = 0 in the core", {Quantity.TEMPERATURE: core, RADIUS: a})
     critical = phases.critical_hoop_stretch.values
     known = critical > 1.0
     right.plot(T[known], critical[known], "--", color=style.NONLINEAR, label="critical $l_t$")

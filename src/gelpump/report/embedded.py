@@ -104,7 +104,8 @@ def _tubes(pulse, A, velocity) -> dict[str, Any]:
 
 
 def bead(data: "xr.Dataset") -> dict[str, Any]:
-    """A bead of ``bead.dataset``: its course, and its shells in the times that were stored."""
+    """A bead of ``bead.dataset`` or ``separation.observed``: its course, and its shells in the
+    times that were stored; of the latter its front too, 0 before and after it."""
     kept = slice((data.sizes["cell"] - 1) % 2, None, 2)
     return {
         "t": digits(data.t),
@@ -112,6 +113,7 @@ def bead(data: "xr.Dataset") -> dict[str, Any]:
         "surface": digits(data.surface_polymer_fraction),
         "centre": digits(data.polymer_fraction[:, 0]),
         "stopped": data.attrs.get("stopped"),
+        "front": digits(data.front_radius * data.front_present) if "front_radius" in data else [],
         "r": uint16(data.r.values[:, kept], rows=1),
         "phi": uint16(data.polymer_fraction.values[:, kept], rows=1),
     }

@@ -128,7 +128,8 @@ DRAWINGS = {
         "Left: a grey region of negative diffusivity in the plane of temperature and polymer "
         "fraction between pairs of curves, nearly one for the dry side and several for the "
         "swollen. Right: radius over the temperature at which separation begins, two rising "
-        "curves, and a falling dashed one of the critical hoop stretch.",
+        "curves, a third far right of them where the core itself is unstable, and a falling dashed "
+        "one of the critical hoop stretch.",
     ),
     "figX8_heat": Drawing(
         "How far the heat of a collapse holds the front back",

@@ -39,7 +39,8 @@ WIDEST = 0.1  # of the dry radius: beyond it interface and bead are one
 DIFFERENCE = 1e-5  # of a Jacobian, over the thickness of a shell
 ABSOLUTE = 0.01  # absolute tolerance over the relative one
 MAX_STEPS = 50_000
-TOLERANCE = 1e-7  # at 1e-6 Newton's iteration may leave a rise of the energy
+TOLERANCE = 1e-7  # CVODE's, at most: more lets the energy rise
+PER_SQUARE = 0.01  # the same, times the number of shells squared
 
 
 def width_per_root_kappa(energy, l_t: float = WIDTH_AT) -> float:
@@ -130,10 +131,16 @@ class Step:
         return np.array(self.solver.step(t).y)
 
 
-def steps(bead: Bead, start: NDArray, end: float, tolerance: float) -> Iterator[Step]:
+def steps(bead: Bead, start: NDArray, end: float) -> Iterator[Step]:
     """From the radii ``start`` on, one accepted step at a time, the last of them at ``end``;
-    RuntimeError when CVODE fails."""
+    RuntimeError when CVODE fails.
+
+    A face's error changes the strain by itself over the thickness of a shell, and the rate by
+    itself over its square; CVODE's tolerance is that much smaller.
+    """
     from sksundae.cvode import CVODE
+
+    tolerance = min(TOLERANCE, PER_SQUARE / start.size**2)
 
     def rate(t, r, drdt):
         drdt[:] = bead.rate(r)
@@ -187,7 +194,6 @@ def solve(
     cells: int,
     *,
     width: float,
-    tolerance: float = TOLERANCE,
     layers: bool = False,
 ) -> "xr.Dataset":
     """The bead of ``energy`` from uniform ``phi_initial``, interfaces as wide as ``width``.
@@ -207,7 +213,7 @@ def solve(
     return watch.course(
         energy,
         bead,
-        steps(bead, start, float(times[-1]), tolerance),
+        steps(bead, start, float(times[-1])),
         times,
         layers=layers,
         phi_initial=phi_initial,

@@ -23,7 +23,9 @@ RADII = 21
 
 def dataset(gel, temperatures: np.ndarray, radii: tuple[float, float]) -> "xr.Dataset":
     """Dims (model, hoop_stretch, temperature): the swollen and the dry side of a front and the two
-    spinodals; (temperature,): the nonlinear bead's critical hoop stretch; (model, radius): T*(a).
+    spinodals; (temperature,): the nonlinear bead's critical hoop stretch; (model, radius): T*(a);
+    (radius,): the temperature from which on a uniform bead of that radius has D < 0 itself, so that
+    its core decomposes.
 
     ``radii``: those of the beads before and after.  Where there is one phase only all of it is 0,
     and ``two_phases`` says so.
@@ -78,6 +80,11 @@ def dataset(gel, temperatures: np.ndarray, radii: tuple[float, float]) -> "xr.Da
                 ("model", "radius"),
                 loss,
                 kelvin | {"long_name": "T*(a), where a swollen surface separates, or 0"},
+            ),
+            "core_loss_temperature": (
+                "radius",
+                gel.spinodal_temperature(a**-3.0),
+                kelvin | {"long_name": "temperature above which a uniform bead has D < 0"},
             ),
         },
         coords={

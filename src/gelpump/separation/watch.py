@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 WIDTH_AT = 2.0  # hoop stretch of the flat interface
 PER_WIDTH = 3.0  # cells across a width
-RISE = 1e-11  # of the energy in a step, relative, that is rounding
+RISE = 1e-9  # of the energy in a step, relative, that is the integrator's
 
 
 class UnderResolved(RuntimeError):

@@ -154,6 +154,8 @@ class BeadExplorer extends Explorer {
         const { t, radius } = this.bead.models[model];
         const first = this.logarithmic ? 1 : 0;
         line(context, at, t.slice(first), radius.slice(first), { colour: this.colour(model), width: 2, dash: model === "lens" ? [] : [7, 4] });
+        const within = this.bead.models[model].front.map((r, i) => [t[i], r]).filter(([, r]) => r > 0);
+        line(context, at, within.map(([now]) => now), within.map(([, r]) => r), { colour: this.colour(model), width: 1.2, dash: [2, 3] });
       }
       const now = Math.max(this.t[this.frame], x.from);
       line(context, at, [now, now], [0, 1.08 * this.most], { colour: themed("soft"), width: 1.2 });

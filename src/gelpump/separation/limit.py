@@ -114,11 +114,11 @@ def towards(runs: "list[xr.Dataset]", sharp: "xr.Dataset | None") -> "xr.Dataset
 
 
 def between_solvers(run: "xr.Dataset", other: "xr.Dataset") -> dict[str, float]:
-    """Largest differences of two solvers of one diffuse bead: of its radius, and of its front's dry
-    radius from R = 0.9 to 0.1."""
+    """Largest differences of two solvers of one diffuse bead, of its radius and of its front's dry
+    radius, while that goes from R = 0.9 to 0.1."""
     front, there = run.front_dry_radius, run.front_present * other.front_present > 0
     within = there & (front > BETWEEN[0]) & (front < BETWEEN[1])
     return {
-        "radius_between_solvers": float(abs(run.radius - other.radius)[there].max()),
+        "radius_between_solvers": float(abs(run.radius - other.radius)[within].max()),
         "front_between_solvers": float(abs(front - other.front_dry_radius)[within].max()),
     }

@@ -16,7 +16,11 @@ rule report_page:
             *CHECKS,
         ],
         data=[
-            *(file for file in [*MATERIALS, *BEADS, *FRONTS, *TUBES, *SENSITIVITIES] if file not in CHECKS)
+            *(
+                file
+                for file in [*MATERIALS, *BEADS, *FRONTS, *TUBES, *SENSITIVITIES]
+                if file not in CHECKS
+            )
         ],
         pulse=f"{DATA}/tube_pulse.nc",
         fit=f"{DATA}/front_fit.nc",

@@ -15,21 +15,14 @@ SEPARATED = [
 ]
 
 
-def sharp_of(wildcards):
-    """The sharp front of a case, where it is solved."""
-    unsolved = f"{wildcards.case}_{wildcards.model}" in SEPARATION["unsolved"]
-    return [] if unsolved else [f"{DATA}/separation_{wildcards.case}_{wildcards.model}.nc"]
-
-
 rule separation:
     input:
         SEPARATED,
-        [
-            f"{DATA}/separation_{case}_{model}.nc"
-            for case in SEPARATION["cases"]
-            for model in ("nonlinear", "lens")
-            if f"{case}_{model}" not in SEPARATION["unsolved"]
-        ],
+        expand(
+            f"{DATA}/separation_{{case}}_{{model}}.nc",
+            case=SEPARATION["cases"],
+            model=["nonlinear", "lens"],
+        ),
         expand(
             "results/separation/widths_{case}_{model}.nc",
             case=[SEPARATING, *SEPARATION["widths"]["cases"]],
@@ -96,7 +89,7 @@ rule coexistence:
 
 rule separation_widths:
     input:
-        sharp=sharp_of,
+        sharp=f"{DATA}/separation_{{case}}_{{model}}.nc",
         src=modules("separation_widths"),
     output:
         "results/separation/widths_{case}_{model}.nc",

@@ -19,8 +19,9 @@ with job(snakemake) as provenance:
     for width, cells in sorted(widths["shells"], reverse=True):
         runs.append(diffuse.solve(ENERGIES[model](gel, end), phi, times, cells, width=width))
         print(runs[-1].attrs, flush=True)
-    sharp = netcdf.read(snakemake.input.sharp[0]) if snakemake.input.sharp else None
-    dataset = limit.towards(runs, sharp)
+    sharp = netcdf.read(snakemake.input.sharp)
+    arrives = "completion_t" in sharp.attrs  # it may have stopped, in words
+    dataset = limit.towards(runs, sharp if arrives else None)
     if snakemake.params.second:
         fixed = {"width": width, "tolerance": widths["fipy_tolerance"]}
         other = diffuse_lens.solve(gel, end, phi, times, widths["fipy_cells"], **fixed)

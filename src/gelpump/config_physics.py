@@ -29,6 +29,8 @@ def problems(config: Mapping[str, Any]) -> Iterator[str]:
         yield f"materials.temperatures = {temperatures}: must increase"
     for case, block in config["beads"].items():
         yield from _bead_problems(f"beads.{case}", block, gels, config["gels"])
+    for case, block in config["cycles"]["beads"]["cases"].items():
+        yield from _cycle_problems(f"cycles.beads.cases.{case}", block, gels, config["gels"])
     yield from _tube_problems(config)
     yield from _truth_problems(config)
     yield from _choice_problems(config)
@@ -38,6 +40,30 @@ def problems(config: Mapping[str, Any]) -> Iterator[str]:
 def explicit_gels(blocks: Mapping[str, Any]) -> list[str]:
     """Names of the gels that have a free energy, so that T(phi) is explicit."""
     return [n for n, b in blocks.items() if b["model"] in ("energy-based", "flory-rehner")]
+
+
+def _cycle_problems(key, block, gels, blocks) -> Iterator[str]:
+    from gelpump.cycles.programme import Programme
+
+    energy_based = sorted(explicit_gels(blocks))
+    name = block["gel"]
+    if name not in energy_based:
+        yield f"{key}.gel = {name!r}: must be one of the energy-based gels {energy_based}"
+        return
+    try:
+        Programme.cycles(
+            *(block[end] for end in ("cold", "hot", "period", "cycles")), ramp=block["ramp"]
+        )
+    except ValueError as refusal:
+        yield f"{key}.{refusal}"
+    if name not in gels:  # refused above
+        return
+    lowest, highest = gels[name].temperature_range
+    if not lowest <= block["cold"] < block["hot"] <= highest:
+        yield (
+            f"{key}: cold = {block['cold']}, hot = {block['hot']}: must increase, within "
+            f"gels.{name}.temperature_range, {lowest} to {highest} K"
+        )
 
 
 def _bead_problems(key, block, gels, blocks) -> Iterator[str]:

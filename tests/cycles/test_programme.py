@@ -1,9 +1,14 @@
 """Temperature programmes: what they say, and the heat that they send along a tube."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+import yaml
 from scipy.integrate import solve_ivp
 
+from gelpump import config_physics
+from gelpump.config import fill_defaults
 from gelpump.cycles.programme import Programme
 from gelpump.tube.heat import StepHeating
 
@@ -68,3 +73,26 @@ def test_what_is_no_cycle_is_refused(given):
         Programme.cycles(0.0, 1.0, *given)
     with pytest.raises(ValueError, match="ramp"):
         Programme.cycles(0.0, 1.0, 1.0, 1, ramp=0.6)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "told"),
+    [
+        ("gel", "linear", "gel = 'linear': must be one of"),
+        ("hot", 500.0, "hot = 500.0: must increase, within"),
+        ("cold", 308.0, "cold = 308.0, hot = 307.5: must increase"),
+        ("ramp", 9.0, "ramp = 9.0: must be within"),
+    ],
+)
+def test_a_configured_loop_that_cannot_be_is_refused_by_its_key(key, value, told):
+    project = Path(__file__).parents[2]
+    config, schema = (
+        yaml.safe_load((project / name).read_text(encoding="utf-8"))
+        for name in ("config/config.yaml", "workflow/schemas/config.schema.yaml")
+    )
+    fill_defaults(config, schema)
+    assert not list(config_physics.problems(config))
+    config["cycles"]["beads"]["cases"]["HHT, period 10"][key] = value
+    (problem,) = config_physics.problems(config)
+    assert problem.startswith("cycles.beads.cases.HHT, period 10")
+    assert told in problem

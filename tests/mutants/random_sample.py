@@ -5,9 +5,9 @@
 The changes are those of Cosmic Ray (``tests/mutants/requirements.txt``): numbers, arithmetic,
 comparisons, signs and truth values. Every place of the physics, of the statements and their
 verdicts and of the designs where one is possible is as likely as any other; the seed says which are
-drawn, and then which change is made there. The tests that run the changed statement, found once by
-coverage, are run until one fails; then the others of their files, up to ``BUDGET`` seconds. Tests
-too slow for that are left out, which can only lower the score. What is in ``equivalent.yaml``, each
+drawn, and then which change is made there. The tests whose file imports the changed module, then
+those that import what imports it, are run until one fails, or until they have taken ``BUDGET``
+seconds: what they would find later can only raise the score. What is in ``equivalent.yaml``, each
 with its reason, changes no number and is not drawn.
 
 A run goes on where the last one with the same seed and sources stopped. ``--again`` tries once more
@@ -30,7 +30,7 @@ import signal
 import sys
 import tempfile
 import time
-from functools import cached_property
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -44,19 +44,18 @@ PROJECT = Path(__file__).resolve().parents[2]
 SOURCE = "src/gelpump"
 PARTS = ("Snakefile", "config", "profiles", "workflow", "src", "tests", "pyproject.toml")
 LEAST = 0.85
-BUDGET = 25.0  # seconds of CPU of the tests of one change, as they took without any
-PATIENCE, OVER = 30.0, 8.0  # what needs so much longer, in seconds and in times, has no end
-MAPPING, ENOUGH = 240.0, 4.0  # seconds for the coverage of a file of tests: in all, of its CPU
+BUDGET = 20.0  # seconds of CPU of the tests of one change
+PATIENCE = 300.0  # what has not ended after so many seconds has no end
 # loaded once, for all the tests
 HEAVY = ["numpy", "scipy.integrate", "scipy.interpolate", "scipy.optimize", "scipy.sparse.linalg",
-         "xarray", "netCDF4", "pytest", "yaml", "hypothesis", "coverage"]  # fmt: skip
+         "xarray", "netCDF4", "pytest", "yaml", "hypothesis"]  # fmt: skip
 
 CHANGED = ["bdf", "bead", "config", "coordinates", "design", "finite_volume",
            "integrity/reference", "known_solutions", "materials", "second_solvers", "separation",
            "statements", "sweep", "tridiagonal", "truth", "tube", "uncertainty"]  # fmt: skip
 TESTED = ["*.py", "bead", "design", "integrity", "known_solutions", "materials", "second_solvers",
           "separation", "statements", "sweep", "truth", "tube"]  # fmt: skip  # below tests
-WITH_A_BUILD = ("built", "clone")  # fixtures whose tests build all of it
+WITH_A_BUILD = {"built", "clone"}  # fixtures whose tests build all of it
 ARITHMETIC = ("Add", "Sub", "Mul", "Div", "Pow")
 ORDER = ("Eq", "NotEq", "Lt", "LtE", "Gt", "GtE")
 OPERATORS = [
@@ -94,17 +93,45 @@ def equivalents() -> set[tuple[str, str, str]]:
     return {(each["file"], each["before"], each["after"]) for each in listed or ()}
 
 
-def statement_lines(tree: ast.Module, line: int) -> tuple[range, bool]:
-    """Lines of the innermost statement at a line, of its head if it has a body, and whether it is
-    run by a function."""
-    found, inside = None, False
-    for node in ast.walk(tree):  # breadth first: the innermost comes last
-        if isinstance(node, ast.stmt) and node.lineno <= line <= node.end_lineno:
-            found = node
-            body = isinstance(node, ast.FunctionDef) and node.body[0].lineno <= line
-            inside = inside or body
-    last = found.body[0].lineno - 1 if getattr(found, "body", None) else found.end_lineno
-    return range(found.lineno, max(last, found.lineno) + 1), inside
+def imported(file: Path) -> set[str]:
+    """What a file imports of gelpump, as in "tube/front"; a package by all that is named of it."""
+    found = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {each.name for each in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            near = file.relative_to(PROJECT / "src").parts[: -node.level] if node.level else ()
+            module = ".".join([*near, *filter(None, [node.module])])
+            found |= {module, *(f"{module}.{each.name}" for each in node.names)}
+    return {each.removeprefix("gelpump.").replace(".", "/") for each in found if "gelpump." in each}
+
+
+@cache
+def imports() -> tuple[dict[str, set[str]], dict[str, set[str]]]:
+    """Of each module and of each file of tests what it imports."""
+    source = PROJECT / SOURCE
+    paths = {
+        path.relative_to(source).with_suffix("").as_posix(): path for path in source.rglob("*.py")
+    }
+    modules = {name.removesuffix("/__init__"): imported(path) for name, path in paths.items()}
+    folders = [one for each in TESTED for one in (PROJECT / "tests").glob(each)]
+    files = [file for one in folders for file in ([one] if one.is_file() else one.rglob("*.py"))]
+    tests = [file for file in files if file.name.startswith("test_")]
+    return modules, {str(file.relative_to(PROJECT)): imported(file) for file in sorted(tests)}
+
+
+def tests_of(module: str) -> list[str]:
+    """Files of tests of a module, as in "tube/front": near ones first, then small ones."""
+    modules, tests = imports()
+    stem, reached, found, distance = module.split("/")[-1], {module}, {}, 0
+    while reached and distance < 5:
+        for file, names in tests.items():
+            if names & reached:
+                own = file.endswith(f"/test_{stem}.py")
+                found.setdefault(file, (distance, not own, (PROJECT / file).stat().st_size))
+        reached = {name for name, names in modules.items() if names & reached} - reached
+        distance += 1
+    return sorted(found, key=found.get)
 
 
 def annotates(node) -> bool:
@@ -159,32 +186,20 @@ class Sample:
                 yield Change(file, line + 1, before, after, changed)
 
 
-class Plugin:
-    """For pytest: tests in a given order, the first that fails and what it says; what each of them
-    took, and the lines that it ran."""
+class First:
+    """As a plugin of pytest: the first test that fails, and what it says; it stops in time."""
 
-    def __init__(self, order: list[str] | None, coverage=None):
-        self.order, self.coverage = order, coverage
-        self.test, self.said, self.began, self.seconds = "", "", 0.0, {}
+    test, said = "", ""
 
     def pytest_collection_modifyitems(self, items):
-        if self.order is not None:
-            named = {item.nodeid: item for item in items}
-            items[:] = [named[each] for each in self.order if each in named]
-        else:
-            items[:] = [each for each in items if not set(WITH_A_BUILD) & set(each.fixturenames)]
+        items[:] = [each for each in items if not WITH_A_BUILD & set(each.fixturenames)]
 
-    def pytest_runtest_setup(self, item):
-        import pytest
+    def pytest_runtest_logfinish(self, nodeid):
+        if time.process_time() > BUDGET:
+            self.session.shouldstop = "enough"
 
-        self.began = time.process_time()
-        if self.coverage and self.began > ENOUGH:
-            pytest.skip("what was run tells enough")
-        if self.coverage:
-            self.coverage.switch_context(item.nodeid)
-
-    def pytest_runtest_teardown(self, item):
-        self.seconds[item.nodeid] = time.process_time() - self.began
+    def pytest_sessionstart(self, session):
+        self.session = session
 
     def pytest_runtest_logreport(self, report):
         if report.failed and not self.test:
@@ -193,13 +208,11 @@ class Plugin:
             self.said = crash.message if crash else str(report.longrepr)[-300:]
 
     def pytest_collectreport(self, report):
-        if report.failed and not self.test:
-            self.test, self.said = report.nodeid, str(report.longrepr)[-300:]
+        self.pytest_runtest_logreport(report)
 
 
-def run(copy: Path, files: list[str], order: list[str] | None, answer) -> None:
-    """In a process of its own: send pytest's exit status, the first failing test, what it says; or,
-    without an order, for each test of the files what it took and the lines that it ran."""
+def run(copy: Path, tests: list[str], answer) -> None:
+    """In a process of its own: send pytest's exit status, the first failing test, what it says."""
     os.setsid()
     os.chdir(copy)
     os.environ["PYTHONPATH"] = str(copy / "src")
@@ -208,28 +221,11 @@ def run(copy: Path, files: list[str], order: list[str] | None, answer) -> None:
     for stream in (0, 1, 2):
         os.dup2(nowhere, stream)
     import pytest
-    from coverage import Coverage
 
-    options = ["-x", "-q", "-n", "0", "-m", "", "-p", "no:cacheprovider", *files]
-    if order is not None:
-        plugin = Plugin(order)
-        status = int(pytest.main(options, [plugin]))
-        answer.send((status, plugin.test, plugin.said))
-        return
-    coverage = Coverage(data_file=None, include=[f"{copy}/{SOURCE}/*"])
-    plugin = Plugin(None, coverage)
-    with coverage.collect():
-        status = int(pytest.main(options[1:], [plugin]))
-    data, lines = coverage.get_data(), {}
-    for file in data.measured_files():
-        module = Path(file).relative_to(copy / SOURCE).with_suffix("").as_posix()
-        of_file = data.contexts_by_lineno(file)
-        lines[module] = {line: [c for c in names if c] for line, names in of_file.items()}
-    answer.send((status, plugin.seconds, lines))
-
-
-def digest(*files: Path) -> str:
-    return hashlib.sha256(b"".join(each.read_bytes() for each in files)).hexdigest()
+    first = First()
+    options = ["-x", "-q", "-n", "0", "-m", "", "-p", "no:cacheprovider"]
+    status = pytest.main([*options, *tests], [first])
+    answer.send((int(status), first.test, first.said))
 
 
 class Bench:
@@ -250,14 +246,14 @@ class Bench:
         self.sound: dict[str, bool] = {}  # tests that pass without any change
         self.tried = 0
 
-    def pytest(self, files: list[str], order: list[str] | None, seconds: float):
-        """What ``run`` sends; None when the time is over."""
+    def pytest(self, tests: list[str]) -> tuple[int, str, str] | None:
+        """Exit status, failing test and what it says; None when the time is over."""
         mine, theirs = self.context.Pipe(duplex=False)
-        process = self.context.Process(target=run, args=(self.copy, files, order, theirs))
+        process = self.context.Process(target=run, args=(self.copy, tests, theirs))
         process.start()
         theirs.close()
         try:
-            return mine.recv() if mine.poll(seconds) else None
+            return mine.recv() if mine.poll(PATIENCE) else None
         except EOFError:
             return 3, "the process", "died"
         finally:
@@ -265,92 +261,31 @@ class Bench:
                 os.killpg(process.pid, signal.SIGKILL)
             process.join()
 
-    @cached_property
-    def covered(self) -> dict[str, dict]:
-        """By file of tests: the seconds of its tests, and by module and line which of them run it.
-
-        Kept in build/, and found anew where the tests or what they ran have changed.
-        """
-        memory = PROJECT / "build/covered.json"
-        known = json.loads(memory.read_text("utf-8")) if memory.exists() else {}
-        found = {}
-        for file in sorted(
-            each
-            for pattern in TESTED
-            for one in PROJECT.glob(f"tests/{pattern}")
-            for each in (one.rglob("test_*.py") if one.is_dir() else [one])
-            if each.name.startswith("test_")
-        ):
-            name = str(file.relative_to(PROJECT))
-            before = known.get(name)
-            if before is None or before["digest"] != self._state(file, before["lines"]):
-                answer = self.pytest([name], None, MAPPING)
-                answer = answer or (0, {}, {})  # too slow to find what one change does
-                if answer[0] not in (0, 5):
-                    raise RuntimeError(f"{name} without any change: {answer[:2]}")
-                _, seconds, lines = answer
-                state = self._state(file, lines)
-                known[name] = {"digest": state, "seconds": seconds, "lines": lines}
-                memory.write_text(json.dumps(known), encoding="utf-8")
-                print(f"{sum(seconds.values()):7.1f} s {name}", flush=True)
-            found[name] = json.loads(json.dumps(known[name]))
-        return found
-
-    def _state(self, file: Path, modules) -> str:
-        sources = [PROJECT / SOURCE / f"{module}.py" for module in sorted(modules)]
-        return digest(file, *[each for each in sources if each.exists()])
-
-    def tests(self, change: Change) -> tuple[list[str], list[str], float]:
-        """Files, tests in their order, and their seconds: those that run the statement, cheap files
-        first, then the others of these files."""
-        module = change.file.removeprefix(f"{SOURCE}/").removesuffix(".py")
-        tree = ast.parse((PROJECT / change.file).read_text("utf-8"))
-        lines, inside = statement_lines(tree, change.line)
-        groups = []
-        for file, entry in self.covered.items():
-            by_line = entry["lines"].get(module, {})
-            wanted = lines if inside else map(int, by_line)
-            ran = {test for line in wanted for test in by_line.get(str(line), ())}
-            if ran:
-                seconds = entry["seconds"]
-                ordered = sorted(ran, key=seconds.get)
-                others = sorted(set(seconds) - ran, key=seconds.get)
-                groups.append((sum(map(seconds.get, ran)), file, ordered, others, seconds))
-        chosen, total, limit = [], 0.0, BUDGET
-        groups.sort(key=lambda group: group[0])
-        for which in (2, 3):
-            for group in groups:
-                for test in group[which]:
-                    if total + group[4][test] <= limit or not chosen:
-                        chosen.append(test)
-                        total += group[4][test]
-        files = list(dict.fromkeys(test.partition("::")[0] for test in chosen))
-        return files, chosen, total
-
     def verdict(self, change: Change) -> dict:
         """What became of a change; RuntimeError if its test fails without it, too."""
         file = self.copy / change.file
-        self.tried += 1
-        files, tests, seconds = self.tests(change)
+        module = file.relative_to(self.copy / SOURCE).with_suffix("").as_posix()
+        tests = tests_of(module.removesuffix("/__init__"))
         entry = change._asdict() | {"key": change.key, "test": "", "said": ""}
         del entry["text"]
         if not tests:
-            return entry | {"verdict": "not run"}
+            return entry | {"verdict": "no test"}
+        self.tried += 1
         file.write_text(change.text, encoding="utf-8")
         os.utime(file, (self.tried, self.tried))  # so that nobody takes older bytecode for it
         try:
-            answer = self.pytest(files, tests, PATIENCE + OVER * seconds)
+            answer = self.pytest(tests)
         finally:
             shutil.copy2(PROJECT / change.file, file)
         if answer is None:
             return entry | {"verdict": "no end"}
         status, test, said = answer
-        if status == 0:
+        if not test and status in (0, 2):  # the latter where time was over
             return entry | {"verdict": "survived"}
         if not test:
             raise RuntimeError(f"{change.file}:{change.line}: pytest ends with {status}")
         if "::" in test and test not in self.sound:
-            unchanged = self.pytest([test.partition("::")[0]], [test], MAPPING)
+            unchanged = self.pytest([test])
             self.sound[test] = unchanged is not None and unchanged[0] == 0
         if not self.sound.get(test, True):
             raise RuntimeError(f"{test} fails without any change")
@@ -382,8 +317,6 @@ def main() -> int:
     sample = Sample(arguments.seed)
     with tempfile.TemporaryDirectory(prefix="mutants-") as folder:
         bench = Bench(Path(folder))
-        covered = len(bench.covered)
-        print(f"{covered} files of tests, {len(sample.places)} places", flush=True)
         for change, _ in zip(sample, range(arguments.count), strict=False):
             before = known.get(change.key)
             late = time.monotonic() > deadline

@@ -53,30 +53,24 @@ def test_what_changes_nothing_is_there_and_explained(each):
 
 
 @pytest.mark.parametrize(
-    ("line", "lines", "inside"),
-    [(1, [1], False), (3, [3, 4], False), (5, [5, 6], True), (7, [7], True), (8, [8], True)],
+    ("module", "first"),
+    [
+        ("tube/front", "tests/tube/test_front.py"),
+        ("bead/nonlinear", "tests/bead/test_nonlinear.py"),
+        ("statements/separation", "tests/statements/test_paper.py"),  # by what gathers them
+        ("finite_volume", "tests/test_finite_volume.py"),
+    ],
 )
-def test_a_change_belongs_to_its_statement(line, lines, inside):
-    text = "a = 1\n\ndef f(\n    x=1):\n    y = (x +\n         1)\n    if y:\n        return y\n"
-    found, within = random_sample.statement_lines(ast.parse(text), line)
-    assert (list(found), within) == (lines, inside)
+def test_the_tests_that_import_a_module_come_first(module, first):
+    assert random_sample.tests_of(module)[0] == first
 
 
-def test_the_tests_that_run_a_statement_come_first(monkeypatch):
-    """Those of it, cheap files first; then the others of these files, as far as time goes."""
-    covered = {
-        "tests/slow.py": {"seconds": {"tests/slow.py::a": 9.0, "tests/slow.py::b": 40.0},
-                          "lines": {"bdf": {"66": ["tests/slow.py::a"]}}},
-        "tests/fast.py": {"seconds": {"tests/fast.py::c": 2.0, "tests/fast.py::d": 1.0},
-                          "lines": {"bdf": {"66": ["tests/fast.py::c"]}}},
-        "tests/else.py": {"seconds": {"tests/else.py::e": 0.1},
-                          "lines": {"bdf": {"1": ["tests/else.py::e"]}}},
-    }  # fmt: skip
-    bench = object.__new__(random_sample.Bench)
-    bench.covered = covered
-    monkeypatch.setattr(random_sample, "statement_lines", lambda *of: (range(66, 68), True))
-    change = random_sample.Change("src/gelpump/bdf.py", 66, "", "", "")
-    files, tests, seconds = bench.tests(change)
-    assert files == ["tests/fast.py", "tests/slow.py"]
-    assert [test[-1] for test in tests] == ["c", "a", "d"]
-    assert seconds == 12.0
+def test_only_these_modules_are_run_by_no_test_that_imports_them():
+    changed = filter(random_sample.is_changed, random_sample.imports()[0])
+    without = {module for module in changed if not random_sample.tests_of(module)}
+    assert without <= {
+        "separation/phases",
+        "truth/verification",
+        "tube/flow_fields",
+        "tube/uniform",
+    }

@@ -20,15 +20,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
+from gelpump.materials import Gel
 from gelpump.second_solvers.course import Course
 
 ABSOLUTE = 0.01  # absolute tolerance over the relative one
 
 
-def diffusivity(gel, T, phi):
+def diffusivity(gel: Gel, T: float, phi: ArrayLike) -> NDArray:
     """Omega D of the LENS bead, arrays or floats."""
     if not hasattr(gel, "A0"):
         c_1, c_2, c_3 = literature_chi(gel, T)
@@ -40,7 +41,7 @@ def diffusivity(gel, T, phi):
     return phi + phi ** (1 / 3) + gel.Omega * mixing
 
 
-def surface_load(gel, T, phi):
+def surface_load(gel: Gel, T: float, phi: float) -> float:
     """Omega Pi + 4 phi^{1/3}, equal to 4/a at a stress-free surface; its slope is Omega D/phi."""
     if not hasattr(gel, "A0"):
         c_1, c_2, c_3 = literature_chi(gel, T)
@@ -52,13 +53,13 @@ def surface_load(gel, T, phi):
     return phi + 3 * phi ** (1 / 3) + gel.Omega * mixing
 
 
-def literature_chi(gel, T):
+def literature_chi(gel: Gel, T: float) -> list[float]:
     """c_1, c_2, c_3 of a gel of `gelpump.materials.flory_rehner`."""
     s = 1 / T if gel.inverse else T
     return [p + q * s for p, q in zip(gel.constant, gel.slope, strict=True)]
 
 
-def stable_interval(gel, T, phi):
+def stable_interval(gel: Gel, T: float, phi: float) -> tuple[float, float]:
     """The interval around phi within which D > 0, of no length if there is none."""
     if diffusivity(gel, T, phi) <= 0:
         return phi, phi
@@ -78,7 +79,7 @@ def stable_interval(gel, T, phi):
 class Shells:
     """The semi-discrete equations of one bead."""
 
-    def __init__(self, gel, T: float, phi: float, cells: int):
+    def __init__(self, gel: Gel, T: float, phi: float, cells: int):
         self.gel, self.T = gel, T
         s = np.linspace(0, 1, cells + 1)
         R, middle = np.sin(np.pi / 2 * s), np.sin(np.pi / 2 * (s[1:] + s[:-1]) / 2)

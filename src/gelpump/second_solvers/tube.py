@@ -19,6 +19,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import erfcinv
 
 from gelpump.netcdf import variable
@@ -50,7 +51,7 @@ def coefficient(ell: float, closure: str) -> float:
     return 4 * (1 - ell) ** 2 * alpha
 
 
-def surface(Phi, side, M, closure: str):
+def surface(Phi: NDArray, side: tuple[float, float], M: float, closure: str) -> ArrayLike:
     """Phi on the edges: Phi_0, or the root x^3 of x^3 + p x = q that bears no force."""
     if closure != "balanced" or M == 0:
         return side[1]
@@ -60,23 +61,23 @@ def surface(Phi, side, M, closure: str):
     return root**3
 
 
-def beyond(Z, two, values):
+def beyond(Z: float, two: NDArray, values: NDArray) -> float:
     """At Z the line through the values at two positions."""
     return values[0] + (values[1] - values[0]) * (Z - two[0]) / (two[1] - two[0])
 
 
 def solve(
-    tau,
-    ell,
-    eps=0.1,
-    M=1.0,
-    Pi_ratio=1.0,
-    Phi_inf=2.0,
-    Le=10.0,
-    nodes=400,
-    rtol=1e-7,
-    closure="printed",
-):
+    tau: ArrayLike,
+    ell: float,
+    eps: float = 0.1,
+    M: float = 1.0,
+    Pi_ratio: float = 1.0,
+    Phi_inf: float = 2.0,
+    Le: float = 10.0,
+    nodes: int = 400,
+    rtol: float = 1e-7,
+    closure: str = "printed",
+) -> tuple[NDArray, NDArray]:
     """Z and Phi_1 at the `tau`, shape (tau, 2 nodes + 1); the front is in column `nodes`."""
     from sksundae.ida import IDA
 

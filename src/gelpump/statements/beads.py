@@ -1,11 +1,16 @@
 """Swelling and drying beads (section 2.1)."""
 
+from collections.abc import Mapping
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gelpump.statements.statement import Collection, Computed, holds
+from gelpump.statements.statement import Collection, Computed, Evidence, holds
 from gelpump.uncertainty import convergence_index, rounding_error
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 statements = Collection()
 states = statements.states
@@ -13,13 +18,15 @@ MODELS = {"nonlinear": "fully nonlinear", "lens": "LENS"}
 VERBS = {"swelling": ("swell", "figure 3"), "drying": ("dry", "figure 4")}
 
 
-def bead(data, case: str, model: str):
+def bead(
+    data: Mapping[str, "xr.Dataset"], case: str, model: str
+) -> tuple["xr.Dataset", "xr.Dataset"]:
     """Production run and refinement of a bead, on their common times."""
     refined = data[f"refinement/bead_{case}_{model}"]
     return data[f"bead_{case}_{model}"].sel(t=refined.t), refined
 
 
-def unknown(e, case: str, *models: str, until: float | None = None) -> Computed | None:
+def unknown(e: Evidence, case: str, *models: str, until: float | None = None) -> Computed | None:
     """What is said where a run ended before the time ``until``, or at all; None if none did."""
     for model in models:
         run = e.data[f"bead_{case}_{model}"]
@@ -35,7 +42,7 @@ def spread(levels: np.ndarray) -> np.ndarray:
     return space + convergence_index(levels[3], levels[0], levels[4])
 
 
-def radius(e, case: str, model: str) -> Computed | None:
+def radius(e: Evidence, case: str, model: str) -> Computed | None:
     """Radius at the times at which the paper's curves were read, if there are any."""
     if not (times := e.cases[case]["published_times"]):
         return None
@@ -67,7 +74,7 @@ for _case, (_verb, _figure) in VERBS.items():
 
 
 @states("swell-lens-slower", "section 2.1", "bead_swelling_{lens,nonlinear}: radius")
-def lens_swells_slower(e):
+def lens_swells_slower(e: Evidence) -> Computed:
     """The LENS radius stays below the nonlinear one while the bead swells."""
     if ended := unknown(e, "swelling", "lens", "nonlinear"):
         return ended
@@ -119,7 +126,7 @@ def steepest(t: np.ndarray, gradient: np.ndarray, after: float) -> float:
 
 
 @states("dry-plateau", "section 2.1", "bead_drying_lens: radius")
-def drying_plateau(e):
+def drying_plateau(e: Evidence) -> Computed:
     """Drying slows down between these times (LENS: |da/dt| below its mean over the course)."""
     if ended := unknown(e, "drying", "lens"):
         return ended
@@ -129,7 +136,7 @@ def drying_plateau(e):
 
 
 @states("dry-steep-at-5", "section 2.1", "bead_drying_lens: steepest_gradient")
-def steepest_drying(e):
+def steepest_drying(e: Evidence) -> Computed:
     """Polymer-fraction gradients, past the initial jump, are largest at this time (LENS)."""
     if ended := unknown(e, "drying", "lens"):
         return ended
@@ -138,7 +145,7 @@ def steepest_drying(e):
     return Computed(peaks[0], spread(np.array(peaks)))
 
 
-def never_negative(e, case: str) -> Computed:
+def never_negative(e: Evidence, case: str) -> Computed:
     """Whether D stays positive in all of a bead."""
     if (stop := e.data[f"bead_{case}_lens"].attrs).get("stopped"):
         return Computed(False, None, follows=stop["stopped"])
@@ -160,7 +167,7 @@ for _id, _case, _path in (
 
 
 @states("drying-308-enters-spinodal", SPINODAL, "bead_separating_lens: stopped_t")
-def drying_enters_the_spinodal(e):
+def drying_enters_the_spinodal(e: Evidence) -> Computed:
     """On the path 304 to 308 K the diffusivity turns negative."""
     if "stopped_t" not in e.data["bead_separating_lens"].attrs:
         return Computed(False, None)
@@ -174,7 +181,7 @@ def drying_enters_the_spinodal(e):
 @states(
     "negative-D-separates", "section 2.1.1", "bead_separating_nonlinear: stopped_polymer_fraction"
 )
-def separation_criterion(e):
+def separation_criterion(e: Evidence) -> Computed:
     """Phases separate where D < 0, also in the fully nonlinear model (304 to 308 K)."""
     stopped, gel = e.data["bead_separating_nonlinear"].attrs, e.gels["HHT"]
     if "stopped_t" not in stopped:
@@ -197,7 +204,7 @@ def separation_criterion(e):
 
 
 @states("printed-digits-of-table-2", "table 2, figure 4", "sensitivity_drying: radius_change")
-def printed_digits(e):
+def printed_digits(e: Evidence) -> Computed:
     """The parameters are printed to the digits that figure 4 needs: half a unit of the last one
     moves its last radius by less than it can be read to."""
     change = e.data["sensitivity_drying"].radius_change
@@ -218,7 +225,7 @@ def printed_digits(e):
 
 
 @states("lens-cheaper", "sections 1 and 4", "docs/performance.md")
-def cheaper(e):
+def cheaper(e: Evidence) -> Computed:
     """LENS predicts faster than the nonlinear model: time is a matter of the machine, and is
     compared with one integrator on one machine in docs/performance.md."""
     return Computed(None, None)

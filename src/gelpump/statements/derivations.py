@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from gelpump.materials import EnergyBasedGel
 from gelpump.uncertainty import convergence_index
 
 FAR = 12.0  # end of the domain of heat, in diffusion lengths sqrt(Le tau)
@@ -38,7 +39,9 @@ def heat_front(intervals: int) -> float:
     return float(CubicSpline(x, theta).roots(extrapolate=False)[0])
 
 
-def modulus(gel, phi: np.ndarray, T: float, phi_00: float, steps: int) -> np.ndarray:
+def modulus(
+    gel: EnergyBasedGel, phi: np.ndarray, T: float, phi_00: float, steps: int
+) -> np.ndarray:
     """mu_s = sigma_xy / (2 epsilon_xy) in k_B/Omega_f, from the free energy of an element in shear.
 
     F = (1 + gamma e_x e_y) phi^{-1/3} from the dry state; the stress is phi dW/dgamma for the

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gelpump.statements.statement import IDENTITY, LINE, Collection, Computed, holds
+from gelpump.statements.statement import IDENTITY, LINE, Collection, Computed, Evidence, holds
 from gelpump.statements.tubes import DRAWN_ELL, FOR_ELL, of_figure, of_prefactor, relative, slope
 from gelpump.uncertainty import rounding_error
 
@@ -15,7 +15,7 @@ LATE = 0.1  # tau
 @states(
     "flow-out-behind-in-ahead", "section 3.6.1, figures 10, 11", "water_budget: outer_rate_printed"
 )
-def direction_of_flow(e):
+def direction_of_flow(e: Evidence) -> Computed:
     """Water leaves through the outer wall behind the front and enters ahead of it."""
     budget = e.data["water_budget"]
     doubt = float(np.abs(budget.shed_volume_error / budget.shed_volume).max())
@@ -30,7 +30,7 @@ def direction_of_flow(e):
 @states(
     "radial-dominates-thin", "section 3.6.1, figure 11", "water_budget: radial_to_axial_velocity"
 )
-def radial_dominance(e):
+def radial_dominance(e: Evidence) -> Computed:
     """Radial velocities dominate axial ones more in the thinner wall."""
     ratio = of_figure(e.data["water_budget"], tau=0.025).radial_to_axial_velocity.values
     doubt = relative(e.data["refinement/tube_pulse"], "radial_to_axial_velocity")
@@ -50,7 +50,7 @@ def radial_dominance(e):
     "tube_flow_whole: polymer_fraction, u_r_without_Phi1",
     LINE,
 )
-def interstitial_factor(e):
+def interstitial_factor(e: Evidence) -> Computed:
     """U_g is D dPhi_2/dR, as the section on the lumen prints it and not eqn:ug; here at the inner
     edge where it is fastest."""
     flow = e.data["tube_flow_whole"]
@@ -77,14 +77,14 @@ def interstitial_factor(e):
 
 
 @states("figure-10-ell", "figure 10", "config: published", LINE)
-def tube_of_figure_10(e):
+def tube_of_figure_10(e: Evidence) -> Computed:
     """Figure 10 shows the tube of its caption; computed is what it draws."""
     read = e.published["figure-10-ell"]
     return Computed(read["drawn"], read["drawn_resolution"], follows="another tube is drawn")
 
 
 @states("lumen-peak-at-front", "section 3.6.2, figure 12a", f"{PULSE}: Z_highest_printed")
-def place_of_the_peak(e):
+def place_of_the_peak(e: Evidence) -> Computed:
     """The axial velocity of eqn:lumen is largest at Z_C, in every solved tube."""
     offset = float(np.abs(e.data["lumen_pulse"].Z_highest_printed).max())
     pulse = e.data["tube_pulse"]
@@ -98,19 +98,19 @@ def _plotted(e, name: str) -> Computed:
 
 
 @states("lumen-peak-height", "section 3.6.2, figure 12a", f"{PULSE}: V_max_plotted")
-def height_of_the_peak(e):
+def height_of_the_peak(e: Evidence) -> Computed:
     """Largest axial velocity for A = 100, without the prefactor of eqn:lumen."""
     return _plotted(e, "V_max_plotted")
 
 
 @states("lumen-far-nonzero", "section 3.6.2, figure 12a", f"{PULSE}: V_far_plotted")
-def velocity_far_ahead(e):
+def velocity_far_ahead(e: Evidence) -> Computed:
     """Axial velocity far ahead of the front for A = 100, without the prefactor of eqn:lumen."""
     return _plotted(e, "V_far_plotted")
 
 
 @states("lumen-peak-product", "figure 12b", f"{PULSE}: V_max_plotted", IDENTITY)
-def product_of_the_peak(e):
+def product_of_the_peak(e: Evidence) -> Computed:
     """A V_max without the prefactor, at the A of figure 12a: the tanh form depends on A (Z - Z_C)
     only, so that this is lumen-peak-height again."""
     peak, A = _plotted(e, "V_max_plotted"), float(e.data["lumen_pulse"].drawn_A)
@@ -118,7 +118,7 @@ def product_of_the_peak(e):
 
 
 @states("figure-12-prefactor", "figure 12, eqn:lumen", f"{PULSE}: V_max", LINE)
-def prefactor(e):
+def prefactor(e: Evidence) -> Computed:
     """Figure 12a draws V of eqn:lumen; here the largest for A = 100."""
     at = e.data["lumen_pulse"].sel(A=float(e.data["lumen_pulse"].drawn_A), method="nearest")
     fit, A = e.data["front_fit"], float(at.A)
@@ -137,7 +137,7 @@ def prefactor(e):
 
 
 @states("Vmax-exponent", "figure 12b", f"{PULSE}: V_front_printed, data/front_fit.nc: A")
-def law_of_the_peak(e):
+def law_of_the_peak(e: Evidence) -> Computed:
     """Power of A that V_max follows without the prefactor, in the solved tubes."""
     fit = e.data["front_fit"]
     at = of_figure(e.data["lumen_pulse"], tau=float(fit.fit_tau))
@@ -147,7 +147,7 @@ def law_of_the_peak(e):
 
 
 @states("pulse-flux-constant", "section 3.6.2", f"{PULSE}: pulse_flux")
-def flux_of_the_pulse(e):
+def flux_of_the_pulse(e: Evidence) -> Computed:
     """Power of 1 - ell that the flux of the pulse follows: none, it is constant (eqn:lumen)."""
     late = of_figure(e.data["lumen_pulse"], tau=LATE)
     doubt = relative(e.data["refinement/tube_pulse"], "pulse_flux")
@@ -158,7 +158,7 @@ def flux_of_the_pulse(e):
 
 
 @states("lumen-height-vs-ell", "section 3.6.2, figure 12", f"{PULSE}: V_front_printed")
-def height_and_thickness(e):
+def height_and_thickness(e: Evidence) -> Computed:
     """Sign of the power of 1 - ell that the height of the pulse follows, from eqn:lumen (text:
     grows with ell; caption: V_max ~ 1 - ell)."""
     late = of_figure(e.data["lumen_pulse"], tau=LATE)
@@ -181,7 +181,7 @@ def _ratio(e, above: str, below: str, doubts: tuple[str, ...], extra: float = 0.
 
 
 @states("lumen-matching", "eqn:lumen", f"{PULSE}: V_front_printed, V_front_matched", LINE)
-def lumen_matching(e):
+def lumen_matching(e: Evidence) -> Computed:
     """U and V of eqn:lumen follow from matching the velocity U_g at R = B_0: printed over matched V
     at Z_C is 1."""
     names = "V_front_printed", "V_front_matched"
@@ -194,7 +194,7 @@ def lumen_matching(e):
     "section 3.6.2, appendix B",
     f"{PULSE}: V_front_moving, V_front_matched",
 )
-def lumen_continuity(e):
+def lumen_continuity(e: Evidence) -> Computed:
     """The lumen's radial velocity equals the flux relative to the wall: V with the wall's motion
     over V without it at Z_C is 1."""
     names = "V_front_moving", "V_front_matched"
@@ -205,7 +205,7 @@ def lumen_continuity(e):
 
 
 @states("tanh-lumen-velocity", "section 3.6.2, figure 12", f"{PULSE}: V_far_printed, V_far_tanh")
-def tanh_velocities(e):
+def tanh_velocities(e: Evidence) -> Computed:
     """The tanh form, from which figure 12 is computed, gives the velocity of the solved tubes: V of
     eqn:lumen far ahead, solved over tanh, is 1."""
     of_tanh = relative(e.data["front_fit"], "A")  # V ~ 1/A
@@ -216,7 +216,7 @@ def tanh_velocities(e):
 
 
 @states("coupling-G", "appendix B", "config: scales, eqn:app:full_interior_bc")
-def lumen_coupling(e):
+def lumen_coupling(e: Evidence) -> Computed:
     """Lumen and gel uncouple for every a_1 above the stated smallest one: the term that G = k/a_1^2
     stands for is of order eps^2."""
     ell, M, known = 0.25, e.gels["tube"].M, (e.scales["permeability"], e.scales["smallest_radius"])

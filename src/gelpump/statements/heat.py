@@ -6,7 +6,7 @@
 import numpy as np
 
 from gelpump.materials.latent_heat import energy_pressure, latent_heat
-from gelpump.statements.statement import LINE, Collection, Computed, holds
+from gelpump.statements.statement import LINE, Collection, Computed, Evidence, holds
 from gelpump.tube.heat import FRONT_CONSTANT
 from gelpump.tube.stefan import tolerated
 
@@ -25,7 +25,7 @@ def _last(e):
 
 
 @states("heat-front-limit", DOCS, f"{HEAT}: front_over_diffusion, front_limit")
-def front_limit(e):
+def front_limit(e: Evidence) -> Computed | None:
     """Z_C of a tube in a bath, in pipes and insulated tends to that of the similarity solution:
     over it, at the last time, it is 1, for each tube."""
     if (heat := _last(e)) is None:
@@ -40,7 +40,7 @@ def front_limit(e):
 
 
 @states("heat-energy", DOCS, f"{HEAT}: energy_balance_error")
-def energy(e):
+def energy(e: Evidence) -> Computed | None:
     """The tubes keep their heat: what was conducted and carried in, given off and carried out is
     what they have gained."""
     if HEAT not in e.data:
@@ -56,7 +56,7 @@ def energy(e):
 
 
 @states("heat-decoupled", "section 3.5", f"{HEAT}: front_limit, f_St, surrounding")
-def decoupled(e):
+def decoupled(e: Evidence) -> Computed | None:
     """The front of heat is that of conduction alone: Z_C/sqrt(Le tau) of eqn:temp_field_sol in a
     large bath, in pipes and with insulation, each latent heat (Le that of the tube)."""
     if (heat := _last(e)) is None:
@@ -74,7 +74,7 @@ def decoupled(e):
 
 
 @states("heat-large-lewis", "section 3.5", f"{HEAT}: front_limit, front_limit_large_Le")
-def large_lewis(e):
+def large_lewis(e: Evidence) -> Computed | None:
     """Le of the tube is large: the limit of each front over that for Le to infinity is 1."""
     if (heat := _last(e)) is None:
         return None
@@ -88,7 +88,7 @@ def large_lewis(e):
 
 
 @states("heat-printed-front", "section 3.5, eqn:lens_heat_equation", f"{HEAT}: Z_C_printed")
-def printed_front(e):
+def printed_front(e: Evidence) -> Computed | None:
     """With a large Le eqn:lens_heat_equation is that of conduction: solved with its term in T, for
     each N = T_C/Delta T, Z_C goes as tau to the power of 1/2 at the last times."""
     if HEAT not in e.data:
@@ -109,8 +109,12 @@ def printed_front(e):
     )
 
 
-@states("heat-printed-term", "eqn:lens_heat_equation", "appendix A's energy: U_v at phi_0(304 K)")
-def printed_term(e):
+@states(
+    "heat-printed-term",
+    "eqn:lens_heat_equation",
+    "gelpump.materials.latent_heat: U_v at phi_0(304 K)",
+)
+def printed_term(e: Evidence) -> Computed | None:
     """What stands beside Pi in the term with Dphi/Dt, over rho c T (water's rho c): 1 as printed;
     from the energies, with the water's enthalpy in the flux of energy, U_v (HHT, ANB)."""
     if HEAT not in e.data:
@@ -128,8 +132,8 @@ def printed_term(e):
     )
 
 
-@states("heat-of-energies", "appendix A", "appendix A's energy: U between the equilibria")
-def heat_of_energies(e):
+@states("heat-of-energies", "appendix A", "gelpump.materials.latent_heat: U between the equilibria")
+def heat_of_energies(e: Evidence) -> Computed | None:
     """Latent heat of the collapse from 304 to 308 K by the energies, in kJ per mole of repeat units
     of PNIPAM (HHT, ANB); by calorimetry 5 to 6.5."""
     if HEAT not in e.data:
@@ -163,7 +167,7 @@ def warming(carried: float, parcels: int = 1000) -> float:
 @printed.states(
     "printed-heat-term", "eqn:lens_heat_equation", "gelpump.statements.heat.warming", LINE
 )
-def printed_heat_term(e):
+def printed_heat_term(e: Evidence) -> Computed | None:
     """Coefficient of T in the term with Dphi/Dt of eqn:lens_heat_equation, 1 as printed: that of an
     insulated element of gel whose departing water takes its thermal energy along."""
     return Computed(

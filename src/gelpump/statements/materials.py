@@ -4,8 +4,9 @@ from functools import partial
 
 import numpy as np
 
+from gelpump.materials import EnergyBasedGel
 from gelpump.statements.derivations import modulus, refined
-from gelpump.statements.statement import LINE, Collection, Computed, holds
+from gelpump.statements.statement import LINE, Collection, Computed, Evidence, holds
 from gelpump.uncertainty import rounding_error
 
 statements = Collection()
@@ -17,19 +18,19 @@ WARMER = np.array([300.0, 305.0, 310.0, 315.0])  # K, the range of figure 13
 NUDGE = 1e-6  # relative shift of a polymer fraction, to see how well an extremum is located
 
 
-def root_uncertainty(gel, phi: float, T: float) -> float:
+def root_uncertainty(gel: EnergyBasedGel, phi: float, T: float) -> float:
     """How far phi is from T_eq(phi) = T, to first order, and what rounding adds."""
     at, beside = gel.equilibrium_temperature(np.array([phi, phi * (1 + NUDGE)]))
     return float(abs((at - T) * phi * NUDGE / (beside - at))) + ROUNDING
 
 
-def fold_uncertainty(gel, phi: float) -> float:
+def fold_uncertainty(gel: EnergyBasedGel, phi: float) -> float:
     """How far T_eq moves when the fold's polymer fraction is nudged: T is flat there."""
     T = gel.equilibrium_temperature(np.array([phi * (1 - NUDGE), phi, phi * (1 + NUDGE)]))
     return float(np.ptp(T)) + ROUNDING * float(T[1])
 
 
-def initial_state(e, case: str) -> Computed:
+def initial_state(e: Evidence, case: str) -> Computed:
     """Polymer fraction of a bead before the jump."""
     phi = float(e.data[f"bead_{case}_lens"].polymer_fraction[0, 0])
     gel, T = e.gels[e.cases[case]["gel"]], e.cases[case]["temperature_initial"]
@@ -50,7 +51,7 @@ def _folds(e, name: str) -> tuple[np.ndarray, list[float]]:
     return np.sort(table.fold_temperature.values), doubts
 
 
-def jump_of_anb(e, fold: int) -> Computed:
+def jump_of_anb(e: Evidence, fold: int) -> Computed:
     """Temperature of a fold of ANB, by rank."""
     folds, doubts = _folds(e, "ANB")
     drawn = f"the folds lie at {folds[0]:.3f} and {folds[-1]:.3f} K, where figure 14 draws them"
@@ -64,7 +65,7 @@ for _way, _fold, _what in (("up", 0, "swelling"), ("down", -1, "drying")):
 
 
 @states("tc-hht", "appendix A, figure 14", "materials_HHT: fold_temperature")
-def transition_of_hht(e):
+def transition_of_hht(e: Evidence) -> Computed:
     """Temperature at which the HHT gel jumps (on swelling, on drying)."""
     folds, doubts = _folds(e, "HHT")
     return Computed(folds, [max(doubts)] * folds.size)
@@ -74,7 +75,7 @@ BOTH_FOLDS = "materials_{ANB,HHT}: fold_temperature"
 
 
 @states("hysteresis-both", "appendix A, figure 14", BOTH_FOLDS)
-def hysteresis(e):
+def hysteresis(e: Evidence) -> Computed:
     """Both gels have several equilibria in a narrow band of temperatures."""
     folds = [_folds(e, name) for name in GELS]
     width, doubt = min(np.ptp(T) for T, _ in folds), max(sum(doubts) for _, doubts in folds)
@@ -91,7 +92,7 @@ SWOLLEN = "materials_{ANB,HHT}: swollen_polymer_fraction, asymptotic_polymer_fra
 
 
 @states("phi0-asymptote", "appendix A", SWOLLEN)
-def low_temperature_power(e):
+def low_temperature_power(e: Evidence) -> Computed:
     """Power of 1/2 - (A0-A1) - (B0-B1) T that phi_0 of the swollen gels (ANB, HHT) follows at the
     lowest temperature of their range."""
     tables = [e.data[f"materials_{name}"] for name in GELS]
@@ -106,7 +107,7 @@ COLD_STATES = "materials_{ANB,HHT}: equilibrium_polymer_fraction"
 
 
 @states("phi0-low-temperature", "appendix A", COLD_STATES)
-def low_temperature_fraction(e):
+def low_temperature_fraction(e: Evidence) -> Computed:
     """At 300 K, which is sufficiently low, the swollen gels (ANB, HHT) have this phi_0."""
     tables = [e.data[f"materials_{name}"] for name in GELS]
     at_300 = [
@@ -117,7 +118,7 @@ def low_temperature_fraction(e):
     return Computed(at_300, doubts, follows="at 300 K it is {:.3f} and {:.3f}".format(*at_300))
 
 
-def end_of_the_asymptote(e, gel: str) -> Computed:
+def end_of_the_asymptote(e: Evidence, gel: str) -> Computed:
     """Temperature at which the low-temperature asymptote diverges."""
     T = float(e.data[f"materials_{gel}"].singular_temperature)
     return Computed(T, ROUNDING * T)
@@ -139,7 +140,7 @@ SHEARED = "gelpump.statements.derivations: free energy of an element in shear"
 
 
 @states("mu-independent-of-phi", "appendix A", SHEARED)
-def shear_modulus(e):
+def shear_modulus(e: Evidence) -> Computed:
     """The shear modulus does not depend on the polymer fraction, and grows with temperature."""
     phi, phi_00 = np.geomspace(1e-3, 0.9, 40), 0.05
     spread, growth, doubt = 0.0, np.inf, 1e3 * ROUNDING  # shear adds little to far larger energies
@@ -156,7 +157,7 @@ def shear_modulus(e):
 
 
 @states("mu-chain-length", "appendix A", SHEARED, LINE)
-def chain_length(e):
+def chain_length(e: Evidence) -> Computed:
     """The shear modulus increases with chain length, longer chains having a larger Omega_p: at one
     phi_00 it is more than once as large for chains of twice the length."""
     gel = e.gels["HHT"]
@@ -175,7 +176,7 @@ PRESSURES = "materials_{ANB,HHT}: osmotic_pressure"
 
 
 @states("pi-negative-small-phi", "appendix A, figure 13", PRESSURES)
-def ends_of_the_pressure(e):
+def ends_of_the_pressure(e: Evidence) -> Computed:
     """The osmotic pressure is slightly negative as phi -> 0 and diverges as phi -> 1."""
     Pi = [e.data[f"materials_{name}"].osmotic_pressure.values for name in GELS]
     negative = max(float(each[:, 0].max()) for each in Pi)
@@ -189,7 +190,7 @@ REFERENCE = "bead_drying_lens: polymer_fraction"
 
 
 @states("diffusivity-reference-state", "eqn:lens_transport", REFERENCE, LINE)
-def reference_state(e):
+def reference_state(e: Evidence) -> Computed:
     """The elastic part of D is (4/3) mu_s (phi/phi_0)^(1/3); here D in mu_s k/mu_l at the start and
     the end of drying."""
     gel, bead = e.gels["HHT"], e.data["bead_drying_lens"]

@@ -39,7 +39,7 @@ class Shown(NamedTuple):
     config: Any
 
 
-def key_numbers(data: Mapping, gels: Mapping, config) -> Iterator[dict[str, Any]]:
+def key_numbers(data: Mapping, gels: Mapping, config: Any) -> Iterator[dict[str, Any]]:
     """The rows of ``figure_numbers.json``; ValueError if a number is not finite.
 
     data: all datasets of the paper's figures; gels: energy-based ones, by name; config: has the
@@ -50,7 +50,9 @@ def key_numbers(data: Mapping, gels: Mapping, config) -> Iterator[dict[str, Any]
             yield row(figure, *each)
 
 
-def row(figure, quantity, value, uncertainty, source, evidence, unit="") -> dict[str, Any]:
+def row(
+    figure: str, quantity: str, value: Any, uncertainty: Any, source: str, evidence: str, unit=""
+) -> dict[str, Any]:
     """A row of ``figure_numbers.json``; ValueError if a number in it is not finite."""
     value, uncertainty = (np.asarray(each, float).tolist() for each in (value, uncertainty))
     if not (np.all(np.isfinite(value)) and np.all(np.isfinite(uncertainty))):
@@ -80,33 +82,33 @@ def _listed(values) -> str:
     return ", ".join(f"{value:g}" for value in values)
 
 
+def _own(dataset, name: str) -> tuple:
+    """Of a variable that has its uncertainty beside it: both."""
+    return dataset[name], dataset[f"{name}_uncertainty"]
+
+
+SURFACE, PRESSURE = "surface_polymer_fraction", "osmotic_pressure"
 FEWEST = 4  # times from which numbers of a course are told
 
 
 def _deformed_bead(e, case: str, time: float) -> Told:
-    whole, initial = f"bead_{case}_lens", e.config.beads[case]["temperature_initial"]
-    phi_00, a_00 = (
-        float(x) for x in (e.data[whole].polymer_fraction[0, 0], e.data[whole].radius[0])
-    )
-    of_root = root_uncertainty(e.gels[e.config.beads[case]["gel"]], phi_00, initial)
-    yield "phi_00 of the reference state", phi_00, of_root, ROUNDED, f"{whole}: polymer_fraction"
-    if e.data[whole].attrs.get("stopped_t", np.inf) <= time:
+    whole, block = f"bead_{case}_lens", e.config.beads[case]
+    run, of_phi, of_radius = e.data[whole], f"{whole}: polymer_fraction", f"{whole}: radius"
+    phi_00, a_00 = float(run.polymer_fraction[0, 0]), float(run.radius[0])
+    of_root = root_uncertainty(e.gels[block["gel"]], phi_00, block["temperature_initial"])
+    yield "phi_00 of the reference state", phi_00, of_root, ROUNDED, of_phi
+    if run.attrs.get("stopped_t", np.inf) <= time:
         return
     run, refined = (each.sel(t=time, method="nearest") for each in bead(e.data, case, "lens"))
     a, phi = float(run.radius), float(run.surface_polymer_fraction)
-    of_a, of_phi = (
-        float(refined[f"{name}_uncertainty"]) for name in ("radius", "surface_polymer_fraction")
-    )
-    yield (
-        f"radius in the reference state and at t_BMJ = {time:g}", [a_00, a],
-        [a_00 / 3.0 * of_root / phi_00, of_a], REFINED, f"{whole}: radius", LENGTH,
-    )  # fmt: skip
-    stretch = np.cbrt(phi / phi_00)
-    yield (
-        f"deviatoric strain along the circle at the surface, t_BMJ = {time:g}",
-        stretch - a_00 / a, stretch / 3.0 * of_phi / phi + a_00 / a**2 * of_a, REFINED,
-        f"{whole}: radius, surface_polymer_fraction",
-    )  # fmt: skip
+    doubt, doubt_phi = (float(refined[f"{name}_uncertainty"]) for name in ("radius", SURFACE))
+    doubts = [a_00 / 3.0 * of_root / phi_00, doubt]
+    here = f"radius in the reference state and at t_BMJ = {time:g}"
+    yield here, [a_00, a], doubts, REFINED, of_radius, LENGTH
+    stretch, here = np.cbrt(phi / phi_00), f"at the surface, t_BMJ = {time:g}"
+    doubt = stretch / 3.0 * doubt_phi / phi + a_00 / a**2 * doubt
+    strain, evidence = stretch - a_00 / a, f"{of_radius}, {SURFACE}"
+    yield f"deviatoric strain along the circle {here}", strain, doubt, REFINED, evidence
 
 
 def _bead(e, case: str) -> Told:
@@ -116,28 +118,23 @@ def _bead(e, case: str) -> Told:
         if e.data[f"refinement/bead_{case}_{model}"].t.size >= FEWEST
     }
     for model, (run, refined) in runs.items():
-        name, from_radius = MODELS[model], f"bead_{case}_{model}: radius"
-        ends, t = run.radius.values[[0, -1]], run.t.values
+        name, whole, t = MODELS[model], f"bead_{case}_{model}", run.t.values
+        ends, told = run.radius.values[[0, -1]], (REFINED, f"{whole}: radius")
         doubts = refined.radius_uncertainty.values[[0, -1]] + np.spacing(ends)  # a_00 is given
-        at = f"t_BMJ = {_listed(t[[0, -1]])}"
-        yield f"{name} radius at {at}", ends, doubts, REFINED, from_radius, LENGTH
+        yield f"{name} radius at t_BMJ = {_listed(t[[0, -1]])}", ends, doubts, *told, LENGTH
         halves, between = np.transpose([half_time(t, each) for each in refined.radius.values])
-        yield (
-            f"time of half the change of the {name} radius", halves[0],
-            spread(halves) + between[0], REFINED, from_radius, TIME,
-        )  # fmt: skip
-        surface = "surface_polymer_fraction"
-        yield (
-            f"{name} polymer fraction at the surface, t_BMJ = {t[-1]:g}", run[surface][-1],
-            refined[f"{surface}_uncertainty"][-1], REFINED, f"bead_{case}_{model}: {surface}",
-        )  # fmt: skip
+        doubt = spread(halves) + between[0]
+        yield f"time of half the change of the {name} radius", halves[0], doubt, *told, TIME
+        here, doubt = f"at the surface, t_BMJ = {t[-1]:g}", refined[f"{SURFACE}_uncertainty"][-1]
+        value, evidence = run[SURFACE][-1], f"{whole}: {SURFACE}"
+        yield f"{name} polymer fraction {here}", value, doubt, REFINED, evidence
     if len(runs) == len(MODELS):
         t = min((run.t.values for run, _ in runs.values()), key=len)
         apart = np.subtract(*(run.radius.sel(t=t).values for run, _ in runs.values()))
-        most, of_both = int(np.argmax(np.abs(apart))), f"bead_{case}_{{nonlinear,lens}}: radius"
+        most, evidence = int(np.argmax(np.abs(apart))), f"bead_{case}_{{nonlinear,lens}}: radius"
         doubt = sum(float(each.radius_uncertainty.sel(t=t)[most]) for _, each in runs.values())
         size = abs(apart[most])
-        yield "largest distance of the two radii", size, doubt, REFINED, of_both, LENGTH
+        yield "largest distance of the two radii", size, doubt, REFINED, evidence, LENGTH
 
 
 def half_time(t: np.ndarray, radius: np.ndarray) -> tuple[float, float]:
@@ -154,51 +151,41 @@ def half_time(t: np.ndarray, radius: np.ndarray) -> tuple[float, float]:
 
 
 def _heated_gel(e, gel: str, temperatures: Sequence[float]) -> Told:
-    material, (cold, hot) = e.gels[gel], temperatures
-    states = []
+    material, (cold, hot), known = e.gels[gel], temperatures, {}
     for T in temperatures:
         phi, stable = material.equilibrium_polymer_fractions(T)
-        states.append((phi[stable], [root_uncertainty(material, x, T) for x in phi[stable]]))
-        yield (
-            f"stable equilibrium phi_0 of {gel} at {T:g} K", *states[-1], ROUNDED,
-            f"materials_{gel}: equilibrium_polymer_fraction",
-        )  # fmt: skip
-    phi, doubt = states[0][0][0], states[0][1][0]
+        known[T] = phi[stable], [root_uncertainty(material, x, T) for x in phi[stable]]
+        evidence = f"materials_{gel}: equilibrium_polymer_fraction"
+        yield f"stable equilibrium phi_0 of {gel} at {T:g} K", *known[T], ROUNDED, evidence
+    phi, doubt = (each[0] for each in known[cold])
     slope = abs(float(material.osmotic_modulus(phi, hot)) / phi)
-    yield (
-        f"Pi at {hot:g} K of the gel that was in equilibrium at {cold:g} K",
-        float(material.osmotic_pressure(phi, hot)),
-        float(rounding_error(material.osmotic_pressure, phi, hot)) + slope * doubt, ROUNDED,
-        f"materials_{gel}: osmotic_pressure", "k_B T/Omega_f",
-    )  # fmt: skip
+    doubt = float(rounding_error(material.osmotic_pressure, phi, hot)) + slope * doubt
+    here = f"Pi at {hot:g} K of the gel that was in equilibrium at {cold:g} K"
+    value, evidence = float(material.osmotic_pressure(phi, hot)), f"materials_{gel}: {PRESSURE}"
+    yield here, value, doubt, ROUNDED, evidence, "k_B T/Omega_f"
 
 
 def _spinodal(e, gel: str, cases: Sequence[str]) -> Told:
     table, T_sp = e.data[f"materials_{gel}"], e.gels[gel].spinodal_temperature
-    tip, of_tip = "spinodal_tip", f"materials_{gel}: spinodal_tip"
-    if f"{tip}_temperature" in table:
-        phi = float(table[f"{tip}_polymer_fraction"])
-        at, size = f"of the tip of the spinodal of {gel}", rounding_error(T_sp, phi)
-        T = table[f"{tip}_temperature"]
-        yield f"temperature {at}", T, size, ROUNDED, f"{of_tip}_temperature", "K"
+    tip, least = f"materials_{gel}: spinodal_tip", "smallest_diffusivity"
+    if "spinodal_tip_temperature" in table:
+        phi, at = float(table.spinodal_tip_polymer_fraction), f"of the tip of the spinodal of {gel}"
+        T, doubt = table.spinodal_tip_temperature, rounding_error(T_sp, phi)
+        yield f"temperature {at}", T, doubt, ROUNDED, f"{tip}_temperature", "K"
         located = _located(T_sp, phi)
-        yield f"polymer fraction {at}", phi, located, ROUNDED, f"{of_tip}_polymer_fraction"
+        yield f"polymer fraction {at}", phi, located, ROUNDED, f"{tip}_polymer_fraction"
     for case in cases:
-        run, refined = e.data[f"bead_{case}_lens"], e.data[f"refinement/bead_{case}_lens"]
+        run, name = e.data[f"bead_{case}_lens"], f"refinement/bead_{case}_lens"
+        refined = e.data[name]
         if "stop_time" in refined:
-            yield (
-                f"time at which phases begin to separate, {case}", refined.stop_time[0],
-                refined.stop_time_uncertainty, REFINED,
-                f"refinement/bead_{case}_lens: stop_time", TIME,
-            )  # fmt: skip
+            stop, doubt = _own(refined, "stop_time")
+            here, evidence = f"time at which phases begin to separate, {case}", f"{name}: stop_time"
+            yield here, stop[0], doubt, REFINED, evidence, TIME
         elif refined.t.size:
-            run = run.sel(t=refined.t)
-            least = int(np.argmin(run.smallest_diffusivity.values))
-            yield (
-                f"smallest diffusivity, {case}", run.smallest_diffusivity[least],
-                refined.smallest_diffusivity_uncertainty[least], REFINED,
-                f"bead_{case}_lens: smallest_diffusivity", "k mu_s/mu_l",
-            )  # fmt: skip
+            D, doubt = run.sel(t=refined.t)[least], refined[f"{least}_uncertainty"]
+            at, evidence = int(np.argmin(D.values)), f"bead_{case}_lens: {least}"
+            here = f"smallest diffusivity, {case}"
+            yield here, D[at], doubt[at], REFINED, evidence, "k mu_s/mu_l"
 
 
 def _located(curve, phi: float) -> float:
@@ -230,12 +217,10 @@ def _transitions(e, gels: Sequence[str]) -> Told:
         of_phi = [_located(gel.equilibrium_temperature, x) for x in phi.values]
         yield f"temperatures {folds}", T, of_T, ROUNDED, f"{whole}: {T.name}", "K"
         yield f"polymer fractions {folds}", phi, of_phi, ROUNDED, f"{whole}: {phi.name}"
-        known = gel.A0 - gel.A1, gel.B0 - gel.B1
-        yield (
-            f"temperature at which the asymptote of {name} diverges", table.singular_temperature,
-            rounding_error(lambda A, B: (0.5 - A) / B, *known), ROUNDED,
-            f"{whole}: singular_temperature", "K",
-        )  # fmt: skip
+        known, T = (gel.A0 - gel.A1, gel.B0 - gel.B1), table.singular_temperature
+        doubt = rounding_error(lambda A, B: (0.5 - A) / B, *known)
+        here = f"temperature at which the asymptote of {name} diverges"
+        yield here, T, doubt, ROUNDED, f"{whole}: {T.name}", "K"
 
 
 def _relative(refinement, name: str, ell) -> np.ndarray:
@@ -269,9 +254,9 @@ def _deswelling(e) -> Told:
     for word, corner in (("longest", 0), ("shortest", -1)):
         at = table.isel(M=corner, Pi_ratio=corner)
         here = f"tau_99 at M = {float(at.M):g}, Pi~ = {float(at.Pi_ratio):g}, the {word}"
-        yield here, at.tau99, at.tau99_uncertainty, INTEGRATED, "deswelling_map: tau99"
-    here, doubt = f"tau_99 for ell = {_listed(curves.ell.values)}", curves.tau99_uncertainty
-    yield here, curves.tau99, doubt, INTEGRATED, "deswelling_curves: tau99"
+        yield here, *_own(at, "tau99"), INTEGRATED, "deswelling_map: tau99"
+    here = f"tau_99 for ell = {_listed(curves.ell.values)}"
+    yield here, *_own(curves, "tau99"), INTEGRATED, "deswelling_curves: tau99"
 
 
 def _profiles(e, ell: float, tau: Sequence[float]) -> Told:

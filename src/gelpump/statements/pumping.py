@@ -5,7 +5,7 @@ What they rest on is `gelpump.tube.closure`, `pump` and `wall`; docs/pump.md tel
 
 import numpy as np
 
-from gelpump.statements.statement import Collection, Computed, holds
+from gelpump.statements.statement import Collection, Computed, Evidence, holds
 
 statements = Collection()
 states = statements.states
@@ -23,7 +23,7 @@ def _conserving(e, **at):
 
 
 @states("beyond-conservation", NEEDS, f"{BALANCE}: water_balance_error, water_balance_step")
-def conservation(e):
+def conservation(e: Evidence) -> Computed | None:
     """With the conservative and the balanced closure all that the wall has lost has gone through
     its edges: the largest difference over Z_C, of all tubes and times, is rounding."""
     if (here := _conserving(e)) is None:
@@ -40,7 +40,7 @@ def conservation(e):
 
 
 @states("beyond-pump-direction", "section 3.6.2", f"{BALANCE}: V_far")
-def direction(e):
+def direction(e: Evidence) -> Computed | None:
     """A tube that conserves water pumps away from its heated end, at all times and whatever ell."""
     if (here := _conserving(e)) is None:
         return None
@@ -56,7 +56,7 @@ def direction(e):
 
 
 @states("beyond-pump-geometry", "section 3.6.2", f"{BALANCE}: V_far, V_far_geometry")
-def geometry(e):
+def geometry(e: Evidence) -> Computed | None:
     """Late, at tau = 0.1, V far ahead of the conservative closure is Z_C' (1 - q + sigma (1-ell^2)
     (p - q)/ell^2), p = Phi_inf^(1/3), q = Phi_inf^(-2/3): over that it is 1, for each ell."""
     if (here := _conserving(e, tau=LATE)) is None:
@@ -92,7 +92,7 @@ def early(e):
 
 
 @states("beyond-pump-order", "section 3.6.2", f"{BALANCE}: V_far_order")
-def order(e):
+def order(e: Evidence) -> Computed | None:
     """V far ahead tends to that by geometry as 1/tau, for each ell (conservative closure)."""
     if (here := _conserving(e)) is None:
         return None
@@ -105,7 +105,7 @@ def order(e):
 
 
 @states("beyond-pump-printed", "eqn:lumen", f"{BALANCE}: V_far")
-def printed(e):
+def printed(e: Evidence) -> Computed | None:
     """V of eqn:lumen far ahead of the printed tube at tau = 0.1 is that of a tube that conserves
     water: over it, 1, for each ell."""
     if (here := _conserving(e, tau=LATE)) is None:
@@ -130,7 +130,7 @@ def _walls(e, varied: str):
 
 
 @states("beyond-wall-time", "section 3.4", f"{WALL}: tau99, tau99_printed")
-def wall_time(e):
+def wall_time(e: Evidence) -> Computed | None:
     """tau_99 on the midline of a wall resolved in r with Phi = Phi_0 on its surfaces is that of the
     slender tube: over that as printed it is 1, for each ell."""
     if (here := _walls(e, "ell")) is None:
@@ -150,7 +150,7 @@ def wall_time(e):
 
 
 @states("beyond-wall-stiffness", "section 3.4", f"{WALL}: tau99, M")
-def stiffness(e):
+def stiffness(e: Evidence) -> Computed | None:
     """Stiffer gels are faster: the power of M in tau_99 from M = 1 to 10 of a wall whose surfaces
     bear no force is that of the printed equation."""
     if (here := _walls(e, "M")) is None:

@@ -1,8 +1,13 @@
 """Beads that separate, in the sharp limit: what section 2.1.1 expects of them, as numbers."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from gelpump.statements.statement import Collection, Computed, holds
+from gelpump.statements.statement import Collection, Computed, Evidence, holds
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 statements = Collection()
 states = statements.states
@@ -10,7 +15,7 @@ MODELS = ("nonlinear", "lens")
 TRAVELS = (0.9, 0.1)  # dry radii between which the front is looked at
 
 
-def runs(e):
+def runs(e: Evidence) -> list["xr.Dataset"] | None:
     """The bead `separating` in both models; None where either has no front that travels."""
     names = [f"separation_separating_{model}" for model in MODELS]
     found = [e.data[name] for name in names if name in e.data]
@@ -18,7 +23,7 @@ def runs(e):
     return found if travel else None
 
 
-def travelling(run):
+def travelling(run: "xr.Dataset") -> "xr.Dataset":
     """The times at which the front travels within the bead."""
     front, (high, low) = run.front_dry_radius, TRAVELS
     return run.isel(t=np.flatnonzero((run.front_present > 0) & (front < high) & (front > low)))
@@ -29,7 +34,7 @@ def travelling(run):
     "section 2.1.1",
     "separation_separating_{nonlinear,lens}: front_dry_radius",
 )
-def front_inwards(e):
+def front_inwards(e: Evidence) -> Computed | None:
     """A drying front forms at the surface and travels inwards, without turning, to the centre."""
     if (beads := runs(e)) is None:
         return None
@@ -51,7 +56,7 @@ def front_inwards(e):
     "section 2.1.1",
     "separation_separating_{nonlinear,lens}: polymer_fraction",
 )
-def outside_final(e):
+def outside_final(e: Evidence) -> Computed | None:
     """Outside the front the gel is at its final state: largest relative distance of the polymer
     fraction from the final one (fully nonlinear, LENS)."""
     if (beads := runs(e)) is None:
@@ -69,7 +74,7 @@ def outside_final(e):
     "section 2.1.1",
     "separation_separating_{nonlinear,lens}: polymer_fraction",
 )
-def core_swollen(e):
+def core_swollen(e: Evidence) -> Computed | None:
     """Inside the front the gel stays swollen: largest polymer fraction there, over the initial one
     (fully nonlinear, LENS)."""
     if (beads := runs(e)) is None:
@@ -94,7 +99,7 @@ def core_swollen(e):
     "section 2.1.1",
     "separation_separating_{nonlinear,lens}: passage_time",
 )
-def lens_against_nonlinear(e):
+def lens_against_nonlinear(e: Evidence) -> Computed | None:
     """LENS's front against the fully nonlinear one: its time from R = 0.7 to 0.3 and the completion
     of the collapse, LENS over fully nonlinear."""
     if (beads := runs(e)) is None:
@@ -118,7 +123,7 @@ def lens_against_nonlinear(e):
 
 
 @states("separation-onset", "section 2.1.1, figure 5", "coexistence_HHT: loss_temperature")
-def onset(e):
+def onset(e: Evidence) -> Computed | None:
     """The temperature at which a bead begins to separate, T*(a), against the criterion D < 0 of
     figure 5: range of T* over the radii of a drying bead, minus the spinodal's tip, K (LENS, fully
     nonlinear)."""

@@ -1,8 +1,10 @@
 """Deswelling, heat and the drying front of tubes (sections 3.3 to 3.6)."""
 
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gelpump.statements.derivations import (
     edge_coefficient,
@@ -10,8 +12,11 @@ from gelpump.statements.derivations import (
     radial_term,
     refined,
 )
-from gelpump.statements.statement import IDENTITY, LINE, Collection, Computed, holds
+from gelpump.statements.statement import IDENTITY, LINE, Collection, Computed, Evidence, holds
 from gelpump.uncertainty import rounding_error
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 statements = Collection()
 states = statements.states
@@ -20,7 +25,7 @@ FOR_ELL = "for ell = " + ", ".join(f"{ell:g}" for ell in DRAWN_ELL)
 MAP = "deswelling_map: tau99"
 
 
-def slope(x, y, relative_error=0.0) -> tuple[float, float]:
+def slope(x: ArrayLike, y: ArrayLike, relative_error: ArrayLike = 0.0) -> tuple[float, float]:
     """d ln y / d ln x by least squares, and the most that errors of y, of any sign, make of it.
 
     The rounding of y and of logarithms adds to relative_error, a number or one for each y.
@@ -31,7 +36,7 @@ def slope(x, y, relative_error=0.0) -> tuple[float, float]:
     return float(leverage @ ln_y), float(np.abs(leverage) @ (np.asarray(relative_error) + rounding))
 
 
-def relative(dataset, *names: str) -> float:
+def relative(dataset: "xr.Dataset", *names: str) -> float:
     """Largest relative uncertainty of a variable, of a product or of a quotient of several."""
 
     def of(name):
@@ -41,14 +46,14 @@ def relative(dataset, *names: str) -> float:
     return sum(map(of, names))
 
 
-def of_figure(dataset, **at):
+def of_figure(dataset: "xr.Dataset", **at: float) -> "xr.Dataset":
     """The tubes of figure 9, at a time if one is given."""
     dataset = dataset.sel(ell=DRAWN_ELL, method="nearest")
     return dataset.sel(**at, method="nearest") if at else dataset
 
 
 @states("tpore-scaling", "section 3", f"{MAP}_compared", IDENTITY)
-def poroelastic_time(e):
+def poroelastic_time(e: Evidence) -> Computed:
     """The response time scales as this power of the length: the equations have no other one."""
     table = e.data["deswelling_map"]
     return Computed(
@@ -57,7 +62,7 @@ def poroelastic_time(e):
 
 
 @states("radial-adjustment-thin", "section 3.6", "wall_times: tau99 (conservative, midline)")
-def thin_walls(e):
+def thin_walls(e: Evidence) -> Computed:
     """The deswelling time of a wall that is resolved in r scales as this power of 1 - ell."""
     walls = e.data["wall_times"].sel(surface="conservative", place="midline")
     walls = walls.isel(tube=np.flatnonzero(walls.varied == "ell"))
@@ -69,7 +74,7 @@ def thin_walls(e):
     return Computed(*slope(1.0 - walls.ell, walls.tau99, share), over, measured)
 
 
-def falls(e, name: str, axis: int) -> Computed:
+def falls(e: Evidence, name: str, axis: int) -> Computed:
     """Whether a time of the map falls from each parameter to the next."""
     table, measured = e.data["deswelling_map"], "smallest relative fall of tau_99 of neighbours:"
     values = np.log(table[name].transpose("M", ...).values)
@@ -87,7 +92,7 @@ for _id, _where, _what, _name, _axis in (
 
 
 @states("deswelling-curves", "figure 7b", "deswelling_curves: Phi1")
-def deswelling_curves(e):
+def deswelling_curves(e: Evidence) -> Computed:
     """Phi_1 at tau = 1e-4 for ell = 0.01, 0.1, 0.25, 0.5."""
     curves = e.data["deswelling_curves"]
     drawn = curves.sel(ell=[0.01, 0.1, 0.25, 0.5]).sel(tau=1e-4, method="nearest")
@@ -98,7 +103,7 @@ HEAT = "gelpump.statements.derivations.heat_front: eqn:temp_field, data/tube_pul
 
 
 @states("front-position", "section 3.5", HEAT)
-def front_position(e):
+def front_position(e: Evidence) -> Computed:
     """Z_C / sqrt(Le tau) of the deswelling front."""
     pulse = e.data["tube_pulse"]
     used = float((pulse.Z_C / np.sqrt(pulse.Le * pulse.tau))[0])
@@ -106,7 +111,7 @@ def front_position(e):
     return Computed(value, doubt, used, "that of the tubes:")
 
 
-def front_constant(pulse) -> tuple[float, float]:
+def front_constant(pulse: "xr.Dataset") -> tuple[float, float]:
     """Z_C / sqrt(Le tau), and its uncertainty: how far solved fronts are from where the stated
     temperature is that of the transition, and rounding."""
 
@@ -118,7 +123,7 @@ def front_constant(pulse) -> tuple[float, float]:
     return float(scaled(*first)), missed + float(rounding_error(scaled, *first))
 
 
-def of_prefactor(fit) -> float:
+def of_prefactor(fit: "xr.Dataset") -> float:
     """Relative uncertainty of c in A = c (1-ell)^-n: ln c is the mean of ln A + n ln(1-ell)."""
     in_law = fit.isel(ell=np.flatnonzero(fit.in_power_law.values))
     lever = abs(float(np.log(1.0 - in_law.ell).mean()))
@@ -126,7 +131,7 @@ def of_prefactor(fit) -> float:
 
 
 @states("front-fig8", "figure 8", "tube_pulse: Z_C")
-def drawn_front(e):
+def drawn_front(e: Evidence) -> Computed:
     """Position of the front at tau = 0.025 and 0.05."""
     pulse = e.data["tube_pulse"]
     Z_C, (constant, doubt) = (
@@ -139,14 +144,14 @@ def drawn_front(e):
 
 
 @states("lewis-number", "section 3.5", "config: scales", IDENTITY)
-def lewis_number(e):
+def lewis_number(e: Evidence) -> Computed:
     """Thermal over compositional diffusivity, from their typical values in the same sentence."""
     known = e.scales["thermal_diffusivity"], e.scales["compositional_diffusivity"]
     return Computed(np.divide(*known), float(rounding_error(np.divide, *known)))
 
 
 @states("tanh-form", "eqn:tanh_fit", "front_fit: Phi1_front, fit_rms")
-def tanh_form(e):
+def tanh_form(e: Evidence) -> Computed:
     """Phi_1 around the front is a tanh, and so halfway between 1 and Phi_inf at Z_C."""
     fit, middle = e.data["front_fit"], float(1.0 + e.data["tube_pulse"].Phi_inf[0]) / 2.0
     solved = of_figure(fit).Phi1_front.values
@@ -162,7 +167,7 @@ def tanh_form(e):
 
 
 @states("front-phi", "figure 9a", "front_fit: Phi1_front")
-def polymer_fraction_at_the_front(e):
+def polymer_fraction_at_the_front(e: Evidence) -> Computed:
     """Phi_1 at Z_C for ell = 0.25, 0.5."""
     doubt = e.data["refinement/tube_pulse"].Phi1_front_uncertainty.max("tau")
     here = {"ell": [0.25, 0.5], "method": "nearest"}
@@ -170,7 +175,7 @@ def polymer_fraction_at_the_front(e):
 
 
 @states("A-values", "figure 9b", "front_fit: A", text=f"A(ell) {FOR_ELL}")
-def sharpness(e):
+def sharpness(e: Evidence) -> Computed:
     """A(ell) at the time of figure 9."""
     fit, solved = e.data["front_fit"], of_figure(e.data["front_fit"])
     scaled = (fit.A * (1.0 - fit.ell)).values
@@ -182,7 +187,7 @@ def sharpness(e):
 
 
 @states("A-exponent", "section 3.6, figure 9b", "front_fit: exponent")
-def sharpness_law(e):
+def sharpness_law(e: Evidence) -> Computed:
     """Power of 1 - ell that A(ell) follows; the figure has that of the points which it draws."""
     fit, drawn = e.data["front_fit"], e.published["A-values"]
     share = np.divide(drawn["resolution"], drawn["value"])
@@ -198,7 +203,7 @@ def sharpness_law(e):
 
 
 @states("travelling-wave", "section 3.6", "front_fit: profile_change")
-def travelling_wave(e):
+def travelling_wave(e: Evidence) -> Computed:
     """The profile around Z_C keeps its shape while tau grows (ell = 0.25, from the time of figure
     9)."""
     fit = e.data["front_fit"].sel(ell=0.25, method="nearest")
@@ -210,7 +215,7 @@ def travelling_wave(e):
 
 
 @states("phi1-near-equilibrium", "section 3.3, appendix B", "front_fit: departure_front")
-def closeness_to_equilibrium(e):
+def closeness_to_equilibrium(e: Evidence) -> Computed:
     """Phi_1 is everywhere close to Phi_0, to order eps^2, as the scaling needs."""
     fit, pulse = e.data["front_fit"], e.data["tube_pulse"]
     departure = of_figure(fit, tau=float(fit.fit_tau)).departure_front.values
@@ -230,7 +235,7 @@ def closeness_to_equilibrium(e):
     "gelpump.statements.derivations.edge_coefficient",
     LINE,
 )
-def radial_structure(e):
+def radial_structure(e: Evidence) -> Computed:
     """F holds 16, from a Phi_2 that is said to be of the form R^2, ln R, 1 and to meet the
     conditions on midline and edges."""
     kappa, doubt = np.transpose([edge_coefficient(ell) for ell in DRAWN_ELL])
@@ -244,7 +249,7 @@ def radial_structure(e):
 @states(
     "scaled-equation", "eqn:evolution_scaled", "gelpump.statements.derivations.radial_term", LINE
 )
-def scaled_equation(e):
+def scaled_equation(e: Evidence) -> Computed:
     """The radial term is (1/R) [R D dphi_2/dR], which for D phi_2 = R^2/4 ought to be the f = 1 of
     the line beneath; here on the edges and the midline."""
     R, D = np.array([0.25, 0.625, 1.0]), float(e.gels["tube"].diffusivity(1.0, 1.0))

@@ -423,6 +423,13 @@ FiPy sweep: refinement of the beads and tubes and all known solutions took 8.9 s
 without, of 138 s of a rebuild; it is gone. FiPy's public terms alone, without
 `gelpump.tridiagonal`, take 43 s instead of 11 s for all beads and tubes of the paper.
 
+Forked scripts gave the same 142 files to the byte as an interpreter each. 57 jobs then took 137
+CPU s where the process that imports all packages took 3.3 (packages without bytecode, others at
+work, which also made Snakemake's own share 31 s); of 22 s of imports pint had 10, and is now loaded
+beforehand too. Two more ways were not taken: to begin that interpreter before Snakemake plans would
+shorten one figure, at the cost of every build with nothing to do; and an own search for equilibria
+would save SciPy's import when a configuration is checked.
+
 ## A rebuild
 
 {rebuild_tables(measured["rebuild"], measured["profile"])}

@@ -131,3 +131,18 @@ def test_what_cannot_be_solved_is_refused_in_words():
         tube.solve(ONE, STEP, 10.0, [-1e-3])
     with pytest.raises(ValueError, match="must be one"):
         tube.solve(Tubes([0.5, 0.6]), STEP, 10.0, [1e-3])
+
+
+def test_between_its_folds_a_gel_stays_on_its_branch(HHT):
+    """Heated to 307.587 K from below it stays swollen; past the fold and back, it stays dry."""
+    shape, between = Tubes(0.5, 0.1), 307.587
+    swollen, dry = (HHT.equilibrium_polymer_fraction(between, name) for name in ("swollen", "dry"))
+    start = HHT.equilibrium_polymer_fraction(304.0)
+    for highest, low, high in ((between, start, swollen), (307.61, swollen, dry)):
+        # Le so large that the tube is as hot throughout as its end
+        heat = Programme(304.0, ((0.0, 304.0), (0.0, highest), (0.1, highest), (0.1, between)))
+        run = tube.solve(shape, heat, 1e8, [0.2], gel=HHT, cell=1.0, tolerance=4e-2)
+        phi = run.Phi1[-1, 0] * start
+        assert not run.lost
+        assert low < phi < 1.01 * high
+        assert phi == pytest.approx(high, rel=0.05)

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 POLISH = 40  # Newton's steps for an edge
 TABLE = 400  # temperatures at which phi_0 is tabulated on each branch
 EXACT = 1e-14
+JUST = 1e-9  # K inside a fold
 
 
 class Lost(NamedTuple):
@@ -126,28 +127,33 @@ def branches(gel: Gel, low: float, high: float) -> tuple[Branch, Branch]:
 
     Points crowd at both ends, where a branch may fold.  ValueError from the gel.
     """
-    ends = [low, high]
-    folds = gel.folds().temperature if hasattr(gel, "folds") else np.empty(0)
-    inside = np.sort(folds[(folds > low) & (folds < high)])
-    if inside.size not in (0, 2):
-        raise ValueError(
-            f"{gel.name}: {inside.size} of its folds lie between {low:g} and {high:g} K: "
-            "must be none or both"
-        )
+    folds = np.sort(gel.folds().temperature) if hasattr(gel, "folds") else np.empty(0)
 
     def along(first, last, name):
         s = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0, 1, TABLE))
         T = first + (last - first) * s
-        take = {"branch": name} if inside.size else {}
+        take = {"branch": name} if folds.size else {}
         return Branch(T, np.array([gel.equilibrium_polymer_fraction(each, **take) for each in T]))
 
-    if not inside.size:
+    if not folds.size:
         only = along(low, high, "swollen")
         return only, only
-    just = 1e-9
-    if gel.collapses_when_heated:
-        return along(ends[0], inside[1] - just, "swollen"), along(inside[0] + just, high, "dry")
-    return along(inside[0] + just, high, "swollen"), along(ends[0], inside[1] - just, "dry")
+    if folds.size != 2:
+        raise ValueError(f"{gel.name}: has {folds.size} folds: must be none or two")
+    down, up = np.add(folds, (JUST, -JUST))
+    # of which branch a temperature can be: up to the warmer fold, or down to the colder one
+    names = ("swollen", "dry") if gel.collapses_when_heated else ("dry", "swollen")
+    found = {
+        name: along(*span, name)
+        for name, span in zip(names, ((low, min(high, up)), (max(low, down), high)), strict=True)
+        if span[0] < span[1]
+    }
+    # no slice leaves a branch that is there at every temperature
+    whole = [each for each in found.values() if each.T[0] == low and each.T[-1] == high]
+    first = found.get("swollen", found.get("dry"))
+    if whole and (len(found) == 1 or first is whole[0]):
+        return first, first
+    return found["swollen"], found["dry"]
 
 
 class RealWall:

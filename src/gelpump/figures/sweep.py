@@ -67,13 +67,13 @@ def surface(dataset: "xr.Dataset", varied: dict[str, bool]) -> Figure:
             *edges, median.T, norm=norm, cmap=style.POLYMER_FRACTION, rasterized=True
         )
         bar = fig.colorbar(mesh, ax=ax, pad=0.02, label=label)
-        _label(bar.ax.yaxis, norm.vmin, norm.vmax)
+        label_logarithmic(bar.ax.yaxis, norm.vmin, norm.vmax)
         ax.set(xlabel=LABELS[x], ylabel=LABELS[y])
         for key, axis, ends in ((x, ax.xaxis, edges[0]), (y, ax.yaxis, edges[1])):
             levels = np.unique(solved[key].values)
             if varied[key]:
                 getattr(ax, f"set_{axis.axis_name}scale")("log")
-                _label(axis, *ends[[0, -1]])
+                label_logarithmic(axis, *ends[[0, -1]])
             if len(levels) <= MOST_LABELS:
                 axis.set_ticks(levels, [f"{level:g}" for level in levels])
                 axis.set_minor_locator(NullLocator())
@@ -83,7 +83,7 @@ def surface(dataset: "xr.Dataset", varied: dict[str, bool]) -> Figure:
     return fig
 
 
-def _label(axis, low, high):
+def label_logarithmic(axis, low, high):
     """Round numbers on a logarithmic axis, as many as there is room for."""
     decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
     for steps in LABELLED:

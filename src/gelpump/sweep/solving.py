@@ -25,10 +25,12 @@ from gelpump.tube import lumen, scaling
 from gelpump.tube.deswelling import deswelling_time
 from gelpump.tube.front import sharpness
 from gelpump.tube.heat import StepHeating
+from gelpump.tube.pump import volumes
 from gelpump.tube.slender import solve
 from gelpump.tube.tubes import Tubes
 from gelpump.tube.wall_flow import Wall
 from gelpump.tube.wave import late_pulse
+from gelpump.tube.wave_pump import late_pump
 
 NEWTON_SHARE = 0.03  # a tenth stalls some tubes with Phi_inf above 6
 FAMILY = 500  # tubes
@@ -57,6 +59,15 @@ OUTPUTS = {
     "pulse_flux": (
         "V of eqn:lumen integrated over the pulse, less V far ahead in front of Z_C",
         "in units of L^2 per poroelastic time mu_l L^2/(k Pi_00)",
+    ),
+    # beside those of the printed equation, those of the closure that conserves water
+    "V_far_conservative": (
+        "axial velocity far ahead in the lumen, away from the heated end, water conserved",
+        scaling.AXIAL_VELOCITY,
+    ),
+    "pumped_conservative": (
+        "volume that has gone along the lumen past a fixed station far ahead, water conserved",
+        scaling.VOLUME,
     ),
 }
 
@@ -106,12 +117,12 @@ def solve_designs(designs: xr.Dataset, tau, numerics: Mapping, error: float = 0.
 
 def _waves(designs, tau):
     """All outputs by travelling waves, (design, time), and the largest uncertainty of them."""
-    late = late_pulse(
-        _tubes(designs.expand_dims(time=1, axis=1)), designs.Le.values[:, np.newaxis], tau
-    )
-    found = {name: late.values[name] for name in OUTPUTS if name != "front_width"}
+    given = _tubes(designs.expand_dims(time=1, axis=1)), designs.Le.values[:, np.newaxis], tau
+    printed, conservative = late_pulse(*given), late_pump(*given)
+    found = printed.values | {f"{k}_conservative": v for k, v in conservative.values.items()}
     found["front_width"] = 1 / found["A"]
-    uncertainty = np.max(list(late.uncertainty.values()), axis=0)
+    stated = [*printed.uncertainty.values(), *conservative.uncertainty.values()]
+    uncertainty = np.max(stated, axis=0)
     finite = np.all([np.isfinite(each) for each in found.values()], axis=0)
     return found, np.where(finite, uncertainty, np.inf)
 
@@ -167,17 +178,16 @@ def _alone(design, tau, numerics):
 
 def _family(designs, tau, numerics):
     """The outputs, (tube, tau), and each tube's defect, (tube,)."""
+    tubes, heat = _tubes(designs), StepHeating(designs.Le.values[:, np.newaxis])
+    given = {**numerics, "cells": tuple(numerics["cells"])}
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # looked at below
-        pulse = solve(
-            _tubes(designs),
-            StepHeating(designs.Le.values[:, np.newaxis]),
-            tau,
-            cells=tuple(numerics["cells"]),
-            tolerance=numerics["tolerance"],
-            reach=numerics["reach"],
-            newton_share=NEWTON_SHARE,
-            trials=TRIALS,
+        pulse, conserving = (
+            solve(
+                tubes, heat, tau, closure=closure, newton_share=NEWTON_SHARE, trials=TRIALS, **given
+            )
+            for closure in ("printed", "conservative")
         )
+        lumen_area = np.pi * tubes.ell[:, np.newaxis] ** 2
         A, _ = sharpness(pulse)
         wall = Wall.of(pulse)
         V = lumen.velocity_printed(wall)
@@ -188,10 +198,16 @@ def _family(designs, tau, numerics):
             "V_peak": V.max(axis=-1),
             "V_far": V[..., -1],
             "departed_length": pulse.departed_length.values,
-            "pulse_flux": wall.integral(lumen.above_far(V, pulse.hot.values))[..., -1],
+            "pulse_flux": lumen.pulse_flux(wall, pulse.hot.values),
+            "V_far_conservative": volumes(conserving, rate=True)["pumped_station"] / lumen_area,
+            "pumped_conservative": volumes(conserving)["pumped_station"],
         }
     if not all(np.isfinite(each).all() for each in values.values()):
         raise ArithmeticError("an output is not finite")
+    return values, np.maximum(_defect(pulse), _defect(conserving))
+
+
+def _defect(pulse):
+    """By how much a tube breaks its conservation of water, or the bounds of Phi_1."""
     outside = np.maximum(1 - pulse.Phi1, pulse.Phi1 - pulse.Phi_inf).max(("tau", "cell"))
-    defect = np.maximum(pulse.water_balance_error.max("tau"), outside / (pulse.Phi_inf - 1))
-    return values, defect.values
+    return np.maximum(pulse.water_balance_error.max("tau"), outside / (pulse.Phi_inf - 1)).values

@@ -54,7 +54,7 @@ def test_a_chunk_agrees_with_its_designs_alone(cube):
         alone = solving.solve_designs(together.isel(index=[i]), sweep["tau"], sweep["numerics"])
         for name in solving.OUTPUTS:
             a, b = together[name].values[i], alone[name].values[0]
-            assert np.abs(a / b - 1).max() < 5e-3, (name, i)
+            assert np.abs(a / b - 1).max() < sweep["accuracy"]["error"], (name, i)
         assert alone.tau99.values[0] == together.tau99.values[i]
 
 
@@ -106,7 +106,7 @@ def test_a_large_chunk_is_several_families(monkeypatch, cube):
     apart = solving.solve_designs(together, sweep["tau"], sweep["numerics"])
     assert sorted(sizes) == [2, 5, 5]
     for name in solving.OUTPUTS:
-        assert np.abs(apart[name] / together[name] - 1).max() < 5e-3, name
+        assert np.abs(apart[name] / together[name] - 1).max() < sweep["accuracy"]["error"], name
 
 
 def test_only_the_healing_length_counts():

@@ -15,6 +15,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from gelpump.design import heat, units
 from gelpump.design.description import Design
@@ -66,13 +67,13 @@ def response_time(design: Design, **changed: float) -> float:
     return float(response_time(**values, **design.material.numbers))
 
 
-def slower(design: Design) -> Callable[[float], float]:
+def slower(design: Design) -> Callable[[ArrayLike], NDArray]:
     """How many times as long as `response_time` the wall takes that is resolved in r, by its ell.
 
     `gelpump.tube.wall.slower`, interpolated; outside LOW to HIGH as at the nearer of the two.
     """
     of = _slower(*design.material.numbers.items())
-    return lambda ell: float(of(np.clip(ell, LOW, HIGH)))
+    return lambda ell: of(np.clip(ell, LOW, HIGH))[()]
 
 
 @cache

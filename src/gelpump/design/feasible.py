@@ -5,11 +5,12 @@ thickness when swollen. Scanned are ell, a_1, the heated length L, the permeabil
 heating step Delta T, the latter if the gel has a free energy, which is what Delta T acts on. By
 
     t_99  = mu_l (a_1-a_0)^2 I/(16 k Pi_00) times what a wall resolved in r takes longer,
-            the longer of its two surfaces (`gelpump.tube.wall`)
+            the longer of its two surfaces (`device.slower`)
     V     = a_1^2 L times what has been pumped when the front is at L, the wall conserving water,
             on one side of the heated end (`gelpump.tube.wave_pump`)
 
-and the lights of `gelpump.design.validity`, of which none may be red. What is no travelling wave
+and the lights of `gelpump.design.validity`, of which none may be red; that of heat is judged for
+each heating step with the shape of the design that is given. What is no travelling wave
 yet by then, or less accurate than ACCURATE, is not decided and does not count. Points are Sobol's,
 evenly in ell and in the logarithms of the others, as far as the tubes are slender. The best are
 those of which no other responds as fast, is over as soon and pumps as much: the pulse lasts until
@@ -25,6 +26,7 @@ import xarray as xr
 from gelpump.config import ConfigError
 from gelpump.design import device, units, validity
 from gelpump.design.description import Design
+from gelpump.design.heat import HEAT
 from gelpump.design.material import BOLTZMANN, from_energy
 from gelpump.design.result import AMBER, RED, Criterion
 
@@ -33,7 +35,6 @@ SPREAD = 10.0  # of a_1, L and k, either way
 THIN, THICK = 0.05, 0.95  # ell
 STEPS, STEP_SPREAD = 8, 3.0  # of Delta T
 ACCURATE = 0.05
-ELLS = 5  # at which walls are resolved
 CONFIRMED = 12
 TAU = 0.01  # at which all of these are solved, by the law of the healing length
 INPUTS = {
@@ -62,12 +63,11 @@ def scan(design: Design, wanted: Mapping[str, float], samples: int = SAMPLES) ->
         raise ConfigError(f"kind = {design.kind!r}: must be 'tube' for the inverse question")
     gels = _heated(design)
     points = _points(design, len(gels), samples)
-    slower = _slower(gels)
     parts = []
     for level, (step, each) in enumerate(gels.items()):
         here = {key: values[points["level"] == level] for key, values in points.items()}
         here["heating_step"] = np.full(len(here["ell"]), step)
-        parts.append(here | _answers(each, here, slower[level]))
+        parts.append(here | _answers(each, here))
     found = {key: np.concatenate([part[key] for part in parts]) for key in parts[0]}
     unknown, red = ~found.pop("decided"), ~found.pop("allowed")
     does = (
@@ -181,8 +181,8 @@ def _heated(design):
             continue  # no stable state there
         given = dict(design.given) | {"heating_step": units.quantity(each, "K")}
         this = replace(design, material=material, T_cold=T_cold, T_hot=T_hot, given=given)
-        whole = (validity.ONE_PHASE, validity.LINEAR)
-        seen = [light for light in validity.before_solving(this) if light.criterion in whole]
+        moved = (validity.ONE_PHASE, validity.LINEAR, HEAT)
+        seen = [light for light in validity.before_solving(this) if light.criterion in moved]
         if material.Phi_inf > 1 and all(light.light != RED for light in seen):
             found[float(each)] = this
     if not found:
@@ -207,27 +207,11 @@ def _points(design, levels, samples):
     return {key: values[slender] for key, values in points.items()}
 
 
-def _slower(gels):
-    """What resolved walls take over the printed time, as functions of ell, one for each gel."""
-    from scipy.interpolate import CubicSpline
-
-    from gelpump.tube.deswelling import deswelling_time
-    from gelpump.tube.tubes import Tubes
-    from gelpump.tube.wall import deswelling_times
-
-    ell = np.linspace(THIN, THICK, ELLS)
-    numbers = [each.material.numbers for each in gels.values()]
-    columns = {key: np.repeat([each[key] for each in numbers], ELLS) for key in numbers[0]}
-    tubes = Tubes(np.tile(ell, len(numbers)), **columns)
-    ratio = deswelling_times(tubes)[0][:, 0].max(axis=0) / deswelling_time(tubes)
-    return [CubicSpline(ell, each) for each in ratio.reshape(-1, ELLS)]
-
-
 def _lewis(design, permeability):
     return device.lewis_number(design) * design.si("permeability") / permeability
 
 
-def _answers(design, here, slower):
+def _answers(design, here):
     from gelpump.tube.deswelling import response_time
     from gelpump.tube.heat import FRONT_CONSTANT
     from gelpump.tube.tubes import Tubes
@@ -245,7 +229,6 @@ def _answers(design, here, slower):
     velocity = L / t_pore * np.maximum(printed.values["V_peak"], pump.values["V_far"])
     a_0, wall = ell * a_1, (1 - ell) * a_1
     judged = {
-        validity.LEWIS: Le,
         validity.COUPLING: k / a_1**2,
         validity.CONTINUUM: wall / np.sqrt(k),
         validity.CLOSE: printed.values["departed_length"],
@@ -253,7 +236,7 @@ def _answers(design, here, slower):
         validity.REYNOLDS: design.si("density") * velocity * a_0 / mu * a_0 / L,
     }
     return {
-        "response_time": time * slower(ell),
+        "response_time": time * device.slower(design)(ell),
         "pumped_volume": a_1**2 * L * pump.values["pumped"],
         "wall": wall,
         "travel_time": L**2 / (FRONT_CONSTANT**2 * kappa),

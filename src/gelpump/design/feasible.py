@@ -7,7 +7,7 @@ heating step Delta T, the latter if the gel has a free energy, which is what Del
     t_99  = mu_l (a_1-a_0)^2 I/(16 k Pi_00) times what a wall resolved in r takes longer,
             the longer of its two surfaces (`device.slower`)
     V     = a_1^2 L times what has been pumped when the front is at L, the wall conserving water,
-            on one side of the heated end (`gelpump.tube.wave_pump`)
+            on one side of the heated end (`gelpump.tube.late_pump`)
 
 and the lights of `gelpump.design.validity`, of which none may be red; that of heat is judged for
 each heating step with the shape of the design that is given. What is no travelling wave
@@ -214,17 +214,17 @@ def _lewis(design, permeability):
 def _answers(design, here):
     from gelpump.tube.deswelling import response_time
     from gelpump.tube.heat import FRONT_CONSTANT
+    from gelpump.tube.late_pump import conserved
     from gelpump.tube.tubes import Tubes
     from gelpump.tube.wave import late_pulse
-    from gelpump.tube.wave_pump import late_pump
 
     ell, a_1, L, k = (here[key] for key in ("ell", "a_1", "heated_length", "permeability"))
     material, mu, kappa = design.material, design.si("viscosity"), design.si("thermal_diffusivity")
     time = response_time(ell * a_1, a_1, k, mu, material.Pi_00, **material.numbers)
     Le = _lewis(design, k)
     tubes, tau = Tubes(ell, a_1 / L, **material.numbers), 1 / (FRONT_CONSTANT**2 * Le)
-    pump, printed = late_pump(tubes, Le, tau), late_pulse(tubes, Le, tau)
-    uncertainty = pump.uncertainty["pumped"]
+    pump, printed = conserved(tubes, Le, tau), late_pulse(tubes, Le, tau)
+    uncertainty = pump.uncertainty["pumped_station"]
     t_pore = mu * L**2 / (k * material.Pi_00)
     velocity = L / t_pore * np.maximum(printed.values["V_peak"], pump.values["V_far"])
     a_0, wall = ell * a_1, (1 - ell) * a_1
@@ -237,7 +237,7 @@ def _answers(design, here):
     }
     return {
         "response_time": time * device.slower(design)(ell),
-        "pumped_volume": a_1**2 * L * pump.values["pumped"],
+        "pumped_volume": np.pi * a_1**2 * L * pump.values["pumped_station"],
         "wall": wall,
         "travel_time": L**2 / (FRONT_CONSTANT**2 * kappa),
         "uncertainty": uncertainty,

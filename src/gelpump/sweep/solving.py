@@ -25,12 +25,12 @@ from gelpump.tube import lumen, scaling
 from gelpump.tube.deswelling import deswelling_time
 from gelpump.tube.front import sharpness
 from gelpump.tube.heat import StepHeating
+from gelpump.tube.late_pump import conserved
 from gelpump.tube.pump import volumes
 from gelpump.tube.slender import solve
 from gelpump.tube.tubes import Tubes
 from gelpump.tube.wall_flow import Wall
 from gelpump.tube.wave import late_pulse
-from gelpump.tube.wave_pump import late_pump
 
 NEWTON_SHARE = 0.03  # a tenth stalls some tubes with Phi_inf above 6
 # what is pumped early needs smaller steps: alone, a tube is out by 1.2 per cent otherwise
@@ -120,10 +120,16 @@ def solve_designs(designs: xr.Dataset, tau, numerics: Mapping, error: float = 0.
 def _waves(designs, tau):
     """All outputs by travelling waves, (design, time), and the largest uncertainty of them."""
     given = _tubes(designs.expand_dims(time=1, axis=1)), designs.Le.values[:, np.newaxis], tau
-    printed, conservative = late_pulse(*given), late_pump(*given)
-    found = printed.values | {f"{k}_conservative": v for k, v in conservative.values.items()}
-    found["front_width"] = 1 / found["A"]
-    stated = [*printed.uncertainty.values(), *conservative.uncertainty.values()]
+    printed, conservative = late_pulse(*given), conserved(*given)
+    found = printed.values | {
+        "front_width": 1 / printed.values["A"],
+        "V_far_conservative": conservative.values["V_far"],
+        "pumped_conservative": np.pi * conservative.values["pumped_station"],
+    }
+    stated = [
+        *printed.uncertainty.values(),
+        *(conservative.uncertainty[name] for name in ("V_far", "pumped_station")),
+    ]
     uncertainty = np.max(stated, axis=0)
     finite = np.all([np.isfinite(each) for each in found.values()], axis=0)
     return found, np.where(finite, uncertainty, np.inf)

@@ -55,9 +55,21 @@ STATED = {  # relative errors: numerical, delayed, confined, as `gelpump.tube.wa
 def late_pump(tubes: Tubes, Le: ArrayLike, tau: ArrayLike) -> wave.LatePulse:
     """Volumes (pi a_1^2 L) and velocities (L per poroelastic time) at the times tau, broadcast.
 
-    Keys: pumped_station, pumped_end, collapse_station, inner, Phi1_front, V_front and V_far of the
-    conserving wall, printed_station of the printed one. Uncertainties are relative, and infinite
-    before the pulse is a wave, and where no front is found.
+    Keys: those of `conserved`, and printed_station of the printed wall.
+    """
+    late = conserved(tubes, Le, tau)
+    volume, doubt = _printed(tubes, Le, tau)
+    return wave.LatePulse(
+        late.values | {"printed_station": volume}, late.uncertainty | {"printed_station": doubt}
+    )
+
+
+def conserved(tubes: Tubes, Le: ArrayLike, tau: ArrayLike) -> wave.LatePulse:
+    """Of the wall that conserves water, through blocks, so that a million need no memory.
+
+    Keys: pumped_station, pumped_end, collapse_station, inner, Phi1_front, V_front and V_far.
+    Uncertainties are relative, and infinite before the pulse is a wave, and where no front is
+    found.
     """
     tau_99 = relaxation(tubes)
     w = tubes.wall_length * np.sqrt(tau_99 / deswelling_time(tubes))
@@ -74,7 +86,6 @@ def late_pump(tubes: Tubes, Le: ArrayLike, tau: ArrayLike) -> wave.LatePulse:
         name: np.where(is_wave, floor + a * delayed + b * confined, np.inf)
         for name, (floor, a, b) in STATED.items()
     }
-    values["printed_station"], uncertainty["printed_station"] = _printed(tubes, Le, tau)
     return wave.LatePulse(values, uncertainty)
 
 
@@ -135,18 +146,20 @@ def shape(
 ) -> tuple[NDArray, NDArray, NDArray, NDArray, NDArray]:
     """Stretch and flux at the front of conserving waves, and by how much the fluxes of its two
     sides disagree there; I_1 and I_3 behind it, and ahead."""
-    given = [np.asarray(each, float) for each in np.broadcast_arrays(M, Pi_ratio, Phi_inf, c)]
-    sides = wave.branches(*(each.ravel() for each in given), "conservative")
+    front, flux, mismatch, *found = wave.by_blocks(_shape, 7, M, Pi_ratio, Phi_inf, c)
+    return front, flux, mismatch, np.array(found[:2]), np.array(found[2:])
+
+
+def _shape(*given):
+    sides = wave.branches(*given, "conservative")
     front = meeting(*sides)
     fine, coarse = (
         np.array([_amounts(each, front, n) for each in sides])
         for n in (wave.INTERVALS, wave.INTERVALS // 2)
     )
-    found = fine + (fine - coarse) / 3
     flux, other = (each.end(front, wave.INTERVALS)[0] for each in sides)
-    mismatch = np.abs(flux - other) / np.abs(flux)
-    like = given[0].shape
-    return *(each.reshape(like) for each in (front, flux, mismatch)), *found.reshape(2, 2, *like)
+    found = fine + (fine - coarse) / 3
+    return np.vstack([front, flux, np.abs(flux - other) / np.abs(flux), *found])
 
 
 def _amounts(branch, front, intervals):

@@ -32,7 +32,7 @@ Q = tau/tau_99, the relative errors of nearly all tubes are below
 the last since the wave behind the front has no end and the tube has one, at Z = 0.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
@@ -112,43 +112,12 @@ def travelling_wave(
 
 def by_blocks(function: Callable[..., NDArray], rows: int, *given: ArrayLike) -> NDArray:
     """`function` of broadcast parameters (n,), which gives (rows, n), through blocks of them."""
-    given = np.broadcast_arrays(*given)
+    given = np.broadcast_arrays(*(np.asarray(each, float) for each in given))
     found = np.empty((rows, given[0].size))
     for start in range(0, given[0].size, BLOCK):
         block = slice(start, start + BLOCK)
         found[:, block] = function(*(value.flat[block] for value in given))
     return found.reshape(-1, *given[0].shape)
-
-
-class Front(NamedTuple):
-    """The wave behind a front, and how late it is: w, c, and the parts of the uncertainty."""
-
-    w: NDArray
-    c: NDArray
-    is_wave: NDArray
-    ageing: NDArray
-    """-d ln c/d ln tau."""
-    delayed: NDArray
-    confined: NDArray
-
-    def uncertainty(self, stated: Mapping[str, tuple[float, float, float]]) -> dict[str, NDArray]:
-        """Of each of `stated`, relative; infinite while there is no wave yet."""
-        return {
-            name: np.where(self.is_wave, numerical + a * self.delayed + b * self.confined, np.inf)
-            for name, (numerical, a, b) in stated.items()
-        }
-
-
-def behind_front(tubes: Tubes, Le: ArrayLike, tau: ArrayLike, closure: str) -> Front:
-    """The wave that stands behind the front of `StepHeating(Le)` at tau; all is broadcast."""
-    w = named(closure).wall_length(tubes)
-    tau_99 = deswelling_time(tubes) * (w / tubes.wall_length) ** 2
-    p, then = np.cbrt(tubes.Phi_inf), np.asarray(tau - DELAY * tau_99)
-    is_wave = then > 0
-    then = np.where(is_wave, then, tau)
-    c = p * w * FRONT_CONSTANT / 2 * np.sqrt(Le / then)
-    confined = np.exp(-p * FRONT_CONSTANT * np.sqrt(Le * tau) / w)
-    return Front(w, c, is_wave, tau / then / 2, (tau_99 / tau) ** 2, confined)
 
 
 class LatePulse(NamedTuple):
@@ -163,17 +132,29 @@ def late_pulse(tubes: Tubes, Le: ArrayLike, tau: ArrayLike, closure: str = "prin
 
     The uncertainty is infinite while tau < DELAY tau_99: such a pulse is not a wave yet.
     """
-    now = behind_front(tubes, Le, tau, closure)
-    wave = travelling_wave(tubes.M, tubes.Pi_ratio, tubes.Phi_inf, now.c, closure)
+    w = named(closure).wall_length(tubes)
+    tau_99 = deswelling_time(tubes) * (w / tubes.wall_length) ** 2
+    p = np.cbrt(tubes.Phi_inf)
+    then = np.asarray(tau - DELAY * tau_99)
+    is_wave = then > 0
+    then = np.where(is_wave, then, tau)
+    c = p * w * FRONT_CONSTANT / 2 * np.sqrt(Le / then)
+    wave = travelling_wave(tubes.M, tubes.Pi_ratio, tubes.Phi_inf, c, closure)
     values = {
-        "A": wave.A / now.w,
+        "A": wave.A / w,
         "Phi1_front": wave.Phi1_front,
-        "departed_length": wave.departed_length * now.w,
-        "V_peak": wave.V_peak / now.w,
-        "V_far": wave.V_far / now.w,
+        "departed_length": wave.departed_length * w,
+        "V_peak": wave.V_peak / w,
+        "V_far": wave.V_far / w,
         "pulse_flux": wave.pulse_flux,
     }
-    return LatePulse(values, now.uncertainty(STATED))
+    delayed = (tau_99 / tau) ** 2
+    confined = np.exp(-p * FRONT_CONSTANT * np.sqrt(Le * tau) / w)
+    uncertainty = {
+        name: np.where(is_wave, numerical + a * delayed + b * confined, np.inf)
+        for name, (numerical, a, b) in STATED.items()
+    }
+    return LatePulse(values, uncertainty)
 
 
 def resting_polymer_fraction(M: float, Pi_ratio: float, Phi_inf: float, closure: str) -> float:

@@ -138,6 +138,28 @@ def formulae() -> dict:
     return {"designs": FORMULAE, "seconds": seconds, "memory_mb": memory}
 
 
+def waves() -> dict:
+    """CPU seconds and memory of the ten million of config/sweeps: all drawn, one chunk solved."""
+    from gelpump.sweep import sampling, solving
+
+    sweep = plan.load(PROJECT / "config/sweeps/millions.yaml")
+    designs, size = plan.designs(sweep), sweep["chunk"]
+    few = sampling.sample(sweep | {"samples": 4 * size})
+    here = few.isel(index=slice(size, 2 * size))
+
+    def chunk(designs=here):
+        solving.solve_designs(designs, sweep["tau"], sweep["numerics"], sweep["accuracy"]["error"])
+
+    chunk(here.isel(index=slice(10)))  # imports
+    spent, memory, _ = forked(chunk)
+    found = {"chunk": size, "seconds": spent / size, "memory_mb": memory, "designs": designs}
+    del few, here
+    drawing, memory, _ = forked(lambda: sampling.sample(sweep))
+    found |= {"draw_seconds": drawing, "draw_mb": memory}
+    print(found, flush=True)
+    return found
+
+
 def _clone(folder: Path, samples: int, chunk: int) -> None:
     for part in PARTS:
         copy = shutil.copytree if (PROJECT / part).is_dir() else shutil.copy2
@@ -242,6 +264,7 @@ def measure(parts: Sequence[str] = (), found: Mapping[str, Any] | None = None) -
             "job": lambda: job(folder / "clone"),
             "whole": lambda: whole_run(folder / "clone"),
             "formulae": formulae,
+            "waves": waves,
             "chunks": chunk_sizes,
         }
         for part in parts or of:
@@ -339,6 +362,7 @@ def tables(measured: Mapping[str, Any]) -> dict[str, str]:
             [[p["chunks"], f"{p['seconds']:.1f}", f"{p['memory_mb']:.0f}"]
              for p in measured["planned"]],
         ),
+        "waves": _wave_costs(measured["waves"], measured["job"]),
         "costs": table(
             ["designs", "chunk", "jobs", "core hours: solving + jobs", "on 2 cores",
              "on 200 cores", "combining", "files", "GB", "Snakemake's plan", "of GB",
@@ -346,6 +370,15 @@ def tables(measured: Mapping[str, Any]) -> dict[str, str]:
             costs,
         ),
     }  # fmt: skip
+
+
+def _wave_costs(waves, job):
+    rows = []
+    for designs in (waves["designs"], 100 * waves["designs"]):
+        spent = designs * (waves["seconds"] + job["seconds"] / waves["chunk"])
+        times = [_time(spent / cores) for cores in (1, 2, 200)]
+        rows.append([f"{designs:,}".replace(",", " "), *times])
+    return table(["designs", "CPU", "on 2 cores", "on 200 cores"], rows)
 
 
 def _time(seconds: float) -> str:

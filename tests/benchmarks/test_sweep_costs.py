@@ -27,6 +27,8 @@ MEASURED = {
         for n in sweeps.PLANNED
     ],
     "job": {"seconds": 2.0, "files": 3, "bytes": 1000},
+    "waves": {"chunk": 250_000, "seconds": 4e-5, "memory_mb": 300.0, "designs": 10**7,
+              "draw_seconds": 9.0, "draw_mb": 700.0},
     "formulae": {"designs": 10**6, "seconds": 3.0, "memory_mb": 300.0},
     "whole": {"designs": 10**4, "chunk": 500, "seconds": 250.0, "wall": 130.0, "passed": True,
               "told": "one", "ended": {"solved": 10**4, "failed": 0}},
@@ -54,4 +56,6 @@ def test_the_page_tells_them():
     assert "a million designs take 3.0 CPU s" in page
     assert "- 10 000 solved\n- 0 failed\n- one\n" in page
     assert "chunks of 500" in page
+    assert "| 10 000 000 | 8 min | 4 min | 2.4 s |" in page
+    assert "| 1 000 000 000 | 13 h | 6.7 h | 4 min |" in page
     assert "{{" not in page

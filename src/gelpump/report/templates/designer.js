@@ -240,7 +240,7 @@ class Designer extends Explorer {
 
   csvText() {
     const cell = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
-    const rows = [["key", "meaning", "value", "unit", "numerical uncertainty", "standard error of the measured gel", "source"]];
+    const rows = [["key", "meaning", "value", "unit", "uncertainty", "gel error", "source"]];
     const { numbers, lights } = this.device;
     for (const [key, [value, error]] of Object.entries(numbers)) {
       const [text, unit, source] = data.design.quantities[key];

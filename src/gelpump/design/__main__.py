@@ -10,6 +10,7 @@ best and their picture in FOLDER (`gelpump.design.feasible`).
 """
 
 import argparse
+import signal
 import sys
 from pathlib import Path
 from typing import Any
@@ -145,4 +146,6 @@ def _scan(design, asked, folder):
 
 
 if __name__ == "__main__":
+    if hasattr(signal, "SIGPIPE"):  # a reader such as head may end before us: no fault
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     sys.exit(main())

@@ -161,9 +161,9 @@ def test_designs_at_random_are_the_same_in_both(engine, gels, count):
         pulses += "final_front_width" in here["numbers"]
         assert set(shown["numbers"]) == set(here["numbers"])
         for key, value in here["numbers"].items():
-            np.testing.assert_allclose(
-                shown["numbers"][key], value, rtol=1e-6, err_msg=f"{key} {given}"
-            )
+            # JSON has no infinity, which is the uncertainty of a wave whose front is not found
+            pair = [np.inf if each is None else each for each in shown["numbers"][key]]
+            np.testing.assert_allclose(pair, value, rtol=1e-6, err_msg=f"{key} {given}")
         assert [each["key"] for each in shown["lights"]] == [
             each.key for each in validity.CRITERIA if each.key in here["lights"]
         ]

@@ -1,11 +1,14 @@
 """Travelling waves against a front at rest, an integrator of its own kind, and solved pulses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from gelpump.tube import slender, wave
+from gelpump.tube.deswelling import deswelling_time
 from gelpump.tube.front import sharpness
 from gelpump.tube.heat import StepHeating
 from gelpump.tube.late_pump import conserved
@@ -23,6 +26,15 @@ def test_a_front_at_rest_has_a_closed_form(gel, closure):
     found = wave.travelling_wave(*gel, 0.0, closure)
     exact = wave.resting_polymer_fraction(*gel, closure)
     assert abs(found.Phi1_front / exact - 1) < 3e-8
+
+
+def test_a_wave_whose_front_is_not_found_says_so():
+    tubes = Tubes(ell=0.5, eps=0.05, M=0.0109, Pi_ratio=0.206, Phi_inf=30.2)
+    tau = 50 * deswelling_time(tubes)
+    late = wave.late_pulse(tubes, 30.0, tau)
+    assert all(np.isinf(each) for each in late.uncertainty.values())
+    known = wave.late_pulse(replace(tubes, Phi_inf=3.0), 30.0, tau)
+    assert all(each < 0.01 for each in known.uncertainty.values())
 
 
 def test_table_1_at_rest():

@@ -79,7 +79,7 @@ def designer(
         | {f"pump_{k}" if k in wave.STATED else k: v for k, v in late_pump.STATED.items()},
         "front_constant": float(FRONT_CONSTANT),
         "delay": wave.DELAY,
-        "mismatch": late_pump.MISMATCH,
+        "mismatch": wave.MISMATCH,
         "step": late_pump.STEP,
         "nodes": [late_pump.NODES, late_pump.FEWER_NODES],
         "quadrature": device.QUADRATURE,

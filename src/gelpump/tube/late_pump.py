@@ -38,7 +38,6 @@ from gelpump.tube.wall_flow import lumen_share, source_coefficient
 from gelpump.tube.wave_branch import meeting
 
 NODES, FEWER_NODES = 12, 8  # of the printed volume, in the root of time
-MISMATCH = 1e-3  # of the fluxes at the front, relative: more, and no front was found
 STEP = 0.01  # of time, for the rate at which is pumped
 VOLUME = (2e-5, 0.4, 0.5)
 STATED = {  # relative errors: numerical, delayed, confined, as `gelpump.tube.wave` has them
@@ -81,7 +80,7 @@ def conserved(tubes: Tubes, Le: ArrayLike, tau: ArrayLike) -> wave.LatePulse:
     delayed = (tau_99 / tau) ** 2
     confined = np.exp(-np.cbrt(tubes.Phi_inf) * StepHeating(Le).front(tau) / w)
     _, is_wave = _then(tau, tau_99)
-    is_wave = is_wave & (values.pop("mismatch") < MISMATCH)
+    is_wave = is_wave & (values.pop("mismatch") < wave.MISMATCH)
     uncertainty = {
         name: np.where(is_wave, floor + a * delayed + b * confined, np.inf)
         for name, (floor, a, b) in STATED.items()

@@ -52,6 +52,7 @@ FIT = 1e-4  # relative change of A at which its fit ends, by an iteration of sec
 BLOCK = 2**10  # waves whose intermediate results stay in the processor's cache
 DEPARTED = 0.1  # of Phi_inf - 1: nearer to Phi_0 than this counts as relaxed
 DELAY = 0.4  # of tau_99
+MISMATCH = 1e-3  # of the fluxes at the front, relative: more, and no front was found
 STATED = {  # the three parts of the uncertainty, of relative errors
     "A": (1.0e-3, 0.5, 3.0),
     "Phi1_front": (6.0e-4, 0.15, 0.5),
@@ -81,7 +82,9 @@ class Wave(NamedTuple):
     """V of eqn:lumen integrated over Z, less V far ahead in front of Z_C."""
     error: NDArray
     """Largest relative change by extrapolation of any of these (of fit_rms, over Phi_inf - 1), or
-    disagreement of the two fluxes at the front."""
+    mismatch."""
+    mismatch: NDArray
+    """Relative disagreement of the two fluxes at the front; above MISMATCH no front was found."""
 
 
 def speed(Phi_inf: ArrayLike, wall_length: ArrayLike, front_speed: ArrayLike) -> NDArray:
@@ -130,7 +133,8 @@ class LatePulse(NamedTuple):
 def late_pulse(tubes: Tubes, Le: ArrayLike, tau: ArrayLike, closure: str = "printed") -> LatePulse:
     """Tubes behind the front of `StepHeating(Le)` at the times tau; everything is broadcast.
 
-    The uncertainty is infinite while tau < DELAY tau_99: such a pulse is not a wave yet.
+    The uncertainty is infinite while tau < DELAY tau_99, when the pulse is not a wave yet, and
+    where no front is found.
     """
     w = named(closure).wall_length(tubes)
     tau_99 = deswelling_time(tubes) * (w / tubes.wall_length) ** 2
@@ -148,10 +152,11 @@ def late_pulse(tubes: Tubes, Le: ArrayLike, tau: ArrayLike, closure: str = "prin
         "V_far": wave.V_far / w,
         "pulse_flux": wave.pulse_flux,
     }
+    found = is_wave & (wave.mismatch < MISMATCH)
     delayed = (tau_99 / tau) ** 2
     confined = np.exp(-p * FRONT_CONSTANT * np.sqrt(Le * tau) / w)
     uncertainty = {
-        name: np.where(is_wave, numerical + a * delayed + b * confined, np.inf)
+        name: np.where(found, numerical + a * delayed + b * confined, np.inf)
         for name, (numerical, a, b) in STATED.items()
     }
     return LatePulse(values, uncertainty)
@@ -193,9 +198,9 @@ def _waves(M, Pi_ratio, Phi_inf, c, closure):
     change = (fine - coarse) / 3
     scale = fine.copy()
     scale[Wave._fields.index("fit_rms")] = Phi_inf - 1
-    scale[-1] = 1.0
-    errors = [*np.abs(change / scale)[:-1], np.abs(fine[-1] + change[-1])]
-    return np.vstack([(fine + change)[:-1], np.max(errors, axis=0)])
+    mismatch = np.abs(fine[-1] + change[-1])
+    errors = [*np.abs(change / scale)[:-1], mismatch]
+    return np.vstack([(fine + change)[:-1], np.max(errors, axis=0), mismatch])
 
 
 def branches(
@@ -209,7 +214,7 @@ def branches(
 
 
 def _results(hot, cold, front, Phi_inf, intervals, A=None):
-    """On one mesh, (8, n), all of `Wave` but its error, and by how much the fluxes disagree."""
+    """On one mesh, (8, n), all of `Wave` but its errors, and by how much the fluxes disagree."""
     sides, at_front = [], []
     for branch in (hot, cold):
         stretch, flux = branch.solve(front, intervals)

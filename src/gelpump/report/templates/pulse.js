@@ -73,7 +73,7 @@ function latePulse(tube, Le, tau, tau_99) {
     A: wave.A / w, Phi1_front: wave.Phi1_front, departed_length: wave.departed_length * w, V_peak: wave.V_peak / w, V_far: wave.V_far / w,
   };
   const confined = Math.exp((-p * frontAt(Le, tau)) / w);
-  return { values, uncertainty: stated(Object.keys(values), isWave, (tau_99 / tau) ** 2, confined) };
+  return { values, uncertainty: stated(Object.keys(values), isWave && wave.mismatch < data.design.mismatch, (tau_99 / tau) ** 2, confined) };
 }
 
 // What of a wall that conserves water follows from lambda at one moment.

@@ -126,6 +126,7 @@ function travellingWave(M, Pi_ratio, Phi_inf, c, conservative = false) {
   const fine = waveOn(hot, cold, front, Phi_inf, WAVE_INTERVALS, coarse.A);
   const found = { Phi1_front: front ** -3, profile: fine.profile };
   for (const name of ["A", "departed_length", "V_peak", "V_far"]) found[name] = fine[name] + (fine[name] - coarse[name]) / 3;
+  found.mismatch = Math.abs(fine.mismatch + (fine.mismatch - coarse.mismatch) / 3);
   return found;
 }
 
@@ -142,7 +143,8 @@ function waveOn(hot, cold, front, Phi_inf, intervals, A) {
   const Z = [-behind.Z.slice(1).reduce((sum, step) => sum + step, 0)];
   for (const step of steps) Z.push(Z[Z.length - 1] + step);
   const Phi = [...there.stretch.slice(1), ...here.stretch.slice(1, -1).reverse()].map(fraction);
-  return { A: tanhFit(Z, Phi, Phi_inf, A ?? 2.25 / departed), departed_length: departed, V_peak: behind.V, V_far: behind.V - ahead.V, profile: { Z, Phi } };
+  const [j, k] = [there, here].map((side) => side.flux[intervals]);
+  return { A: tanhFit(Z, Phi, Phi_inf, A ?? 2.25 / departed), departed_length: departed, V_peak: behind.V, V_far: behind.V - ahead.V, profile: { Z, Phi }, mismatch: (j - k) / (j + k) };
 }
 
 // From the front to where the departure from rest, rising along the nodes, is `near`.

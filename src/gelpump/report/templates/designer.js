@@ -170,8 +170,14 @@ class Designer extends Explorer {
   said(key) {
     const [value, error] = this.device.numbers[key];
     const told = withUnit(value, data.design.quantities[key][1]);
+    return `${told} ${this.doubt(value, error)}`.trim();
+  }
+
+  // The share of a number that is uncertain, in words: all of it where no front was found.
+  doubt(value, error) {
     const share = error && value ? (100 * error) / Math.abs(value) : 0;
-    return share >= 0.005 ? `${told} ± ${printed(share, 2)} %` : told;
+    if (!Number.isFinite(share)) return "(unknown: no front was found)";
+    return share >= 0.005 ? `± ${printed(share, 2)} %` : "";
   }
 
   direction() {
@@ -202,7 +208,7 @@ class Designer extends Explorer {
     const [text, unit, source] = data.design.quantities[key];
     const [value, error] = this.device.numbers[key];
     const row = document.createElement("tr");
-    const cells = [text, withUnit(value, unit), error ? `± ${printed((100 * error) / Math.abs(value), 2)} %` : "", source];
+    const cells = [text, withUnit(value, unit), this.doubt(value, error), source];
     row.append(...cells.map((content, i) => {
       const cell = document.createElement(i ? "td" : "th");
       if (!i) cell.scope = "row";

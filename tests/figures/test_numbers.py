@@ -23,7 +23,7 @@ def series(table, panel, name):
 
 def test_every_figure_tells_its_numbers_with_their_units(built):
     files = sorted((built.path / "results/figures").glob("fig*.csv"))
-    assert len(files) == 19
+    assert len(files) == 21
     for file in files:
         text = file.read_text(encoding="utf-8")
         table = pd.read_csv(file, comment="#")

@@ -51,7 +51,7 @@ def number(text):
 
 def test_every_figure_is_visible(show):
     images = show().execute_async_script(LOAD_ALL)
-    assert len(images) == 20
+    assert len(images) == 22
     for alt, natural, drawn in images:
         assert len(alt) > 40
         assert natural > 100, alt

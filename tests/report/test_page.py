@@ -39,7 +39,7 @@ def test_it_is_small_and_complete(page, text):
     for word in ("NaN", "undefined", ">None<", "nan ", "{%"):
         assert word not in visible, word
     assert not re.findall(r'(?:src|href)="https?:', visible)
-    assert visible.count("<img ") == 20
+    assert visible.count("<img ") == 22
 
 
 def test_links_lead_somewhere(page, text):

@@ -74,7 +74,7 @@ def test_figures_are_drawn_and_tell_their_numbers(data, tmp_path):
 
 
 def test_statements_are_computed(data):
-    evidence = Evidence(data, {}, {}, {}, {}, {})
+    evidence = Evidence({f"truth/{name}": each for name, each in data.items()}, {}, {}, {}, {}, {})
     values = {}
     for each in stated.statements:
         if "verification" in each.evidence or each.id == "beyond-truth-water":

@@ -110,7 +110,7 @@ def texts(svg: str):
 
 def test_text_is_large_enough_and_within_the_page(built):
     drawings = sorted((built.path / "results/figures").glob("*.svg"))
-    assert len(drawings) == 20
+    assert len(drawings) == 22
     for drawing in drawings:
         svg = drawing.read_text(encoding="utf-8")
         width, height = map(float, re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg).groups())

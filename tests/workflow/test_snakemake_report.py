@@ -35,7 +35,7 @@ def test_everything_shown_has_a_caption_and_labels(built, report):
         )
     }
     paths = {str(path.relative_to(built.path)) for path in shown}
-    assert len(paths) == 28
+    assert len(paths) == 30
     assert paths <= set(results)
     for path, result in results.items():
         assert len(result["caption"]) > 60, path

@@ -112,7 +112,7 @@ class Ledger:
             found = loss.T, source.T, values[5], values[6], shorter, values[7]
             named |= {f"{name}{suffix}": each for name, each in zip(ENTRIES, found, strict=True)}
         missing = np.abs((named["loss"] - named["source"]).sum(axis=1))
-        return named | {"water_balance_error": missing / self.family.front(t)[:, 0]}
+        return named | {"water_balance_error": missing / (w * self.family.front(t)[:, 0])}
 
     def _state(self, state):
         """Loss behind and ahead, and shortening, of each tube."""

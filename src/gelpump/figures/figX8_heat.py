@@ -72,6 +72,8 @@ def _shift(axes, heat):
         axes.loglog(heat.f_St_curve, curve, color=COLOURS[kind], label=kind)
         style.tell(axes, "c", str(kind), {x: heat.f_St_curve.values, named: -curve})
         solved = (heat.surrounding.values == kind) & (heat.f_St.values > 0)
+        if not solved.any():
+            continue
         last = 1 - heat.front_over_diffusion.values[solved, -1] / FRONT_CONSTANT
         axes.plot(heat.f_St[solved], last, "o", color=COLOURS[kind])
         style.tell(axes, "c", f"solved {kind}", {x: heat.f_St.values[solved], named: -last})

@@ -118,5 +118,5 @@ def _per_cycle(axes, tube):
     axes.set_ylim(top=4e3 * float(tube.stroke.max()))
     handles, names = axes.get_legend_handles_labels()
     order = sorted(range(len(names)), key=lambda i: names[i] == LESS)
-    axes.legend([handles[i] for i in order], [names[i] for i in order], fontsize=6.5,
+    axes.legend([handles[i] for i in order], [names[i] for i in order], fontsize=7,
                 loc="upper left", borderpad=0.2)  # fmt: skip

@@ -330,7 +330,7 @@ MUTANTS = (
         "src/gelpump/tube/wall_flow.py",
         "return -(self.integral(self.F / self.Phi1) + self.axial_velocity_face) / 3",
         "return -(self.integral(self.F / self.Phi1) + self.axial_velocity_face) / 2",
-        "tests/tube/test_lumen.py -k conserves_water",
+        "tests/tube/test_wall_flow.py -k polymer_moves",
     ),
     Mutant(
         "wrong prefactor of the lumen's velocity",

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.interpolate import CubicSpline
 
 from gelpump.tube import wall_flow
 from gelpump.tube.budget import water_budget
@@ -160,3 +161,19 @@ def test_tubes_of_one_wall_length_differ_by_their_cross_sections():
     }.items():
         one, other = found[name].values / np.expand_dims(size, tuple(range(1, found[name].ndim)))
         np.testing.assert_allclose(one, other, rtol=1e-5, err_msg=name)
+
+
+@pytest.mark.parametrize("closure", ["printed", "conservative"])
+def test_the_polymer_moves_as_its_points_do(closure):
+    """dZ/dtau at a fixed content X of polymer, X = Integral Phi_1^(1/3) dZ, differenced."""
+    tau = 2e-3 * np.array([0.999, 1.0, 1.001])
+    cells = (192, 120)
+    pulse = solve(Tubes([0.5]), StepHeating(10.0), tau, cells, tolerance=1e-6, closure=closure)
+    wall = Wall.of(pulse)
+    content = np.cumsum(np.cbrt(wall.Phi1) * wall.cell_length, axis=-1)[0]
+    content = np.insert(content, 0, 0.0, axis=-1)
+    before, after = (CubicSpline(content[i], wall.Z_face[0, i])(content[1]) for i in (0, 2))
+    moved = (after - before) / (tau[2] - tau[0])
+    np.testing.assert_allclose(
+        wall.polymer_velocity_face[0, 1], moved, rtol=0, atol=1e-3 * np.abs(moved).max()
+    )

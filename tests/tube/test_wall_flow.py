@@ -167,8 +167,8 @@ def test_tubes_of_one_wall_length_differ_by_their_cross_sections():
 def test_the_polymer_moves_as_its_points_do(closure):
     """dZ/dtau at a fixed content X of polymer, X = Integral Phi_1^(1/3) dZ, differenced."""
     tau = 2e-3 * np.array([0.999, 1.0, 1.001])
-    cells = (192, 120)
-    pulse = solve(Tubes([0.5]), StepHeating(10.0), tau, cells, tolerance=1e-6, closure=closure)
+    numerics = {"cells": (192, 120), "tolerance": 1e-6}
+    pulse = solve(Tubes([0.5]), StepHeating(10.0), tau, **numerics, closure=closure)
     wall = Wall.of(pulse)
     content = np.cumsum(np.cbrt(wall.Phi1) * wall.cell_length, axis=-1)[0]
     content = np.insert(content, 0, 0.0, axis=-1)
